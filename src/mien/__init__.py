@@ -1,0 +1,1 @@
+"""Edit what a captured human motion expresses."""

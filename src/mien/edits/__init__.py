@@ -1,0 +1,1 @@
+"""Edits: functions ``(motion, *, parameters) -> new motion``, one file an edit, and the pipeline."""

@@ -1,0 +1,1 @@
+"""Emotion words and the recipes that stand for them."""

@@ -1,0 +1,1 @@
+"""Files in and out: ``load`` and ``save``, one module a format."""

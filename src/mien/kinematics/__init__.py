@@ -1,0 +1,1 @@
+"""Skeletons in space: forward and inverse kinematics, body roles, contacts."""

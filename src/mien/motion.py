@@ -1,0 +1,134 @@
+"""Skeleton and Motion: the two types every room shares. Frozen, checked, with read-only arrays.
+
+Frames first, joints second, components last. Quaternions ``xyzw``, unit, child-to-parent. Lengths in
+the clip's own unit. ``T`` frames, ``J`` joints, ``E`` end sites.
+"""
+
+from dataclasses import dataclass, field, replace
+from typing import Any, Self
+
+import numpy as np
+
+from .errors import MienError
+from .recipe import Step
+from .typing import Array, Integers
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """A tree of joints.
+
+    ``names`` (J), ``parents`` (J, -1 for a root, else an earlier joint), ``offsets`` (J, 3) from the
+    parent; ``end_parents`` (E) and ``end_offsets`` (E, 3) are the tips of the last bones.
+    ``layout`` is whatever the file's format keeps aside so that saving gives back what came in.
+    """
+
+    names: tuple[str, ...]
+    parents: Integers
+    offsets: Array
+    end_parents: Integers = field(default_factory=lambda: np.zeros(0, np.int64))
+    end_offsets: Array = field(default_factory=lambda: np.zeros((0, 3)))
+    layout: Any = None
+
+    def __post_init__(self) -> None:
+        joints, ends = len(self.names), len(self.end_parents)
+        object.__setattr__(self, "names", tuple(self.names))
+        _set(self, "parents", (joints,), np.int64)
+        _set(self, "offsets", (joints, 3))
+        _set(self, "end_parents", (ends,), np.int64)
+        _set(self, "end_offsets", (ends, 3))
+        if joints == 0:
+            raise MienError("a skeleton needs at least one joint")
+        if (self.parents >= np.arange(joints)).any() or (self.parents < -1).any():
+            raise MienError(f"every parent must be -1 or an earlier joint, got {self.parents.tolist()}")
+        if ends and (self.end_parents.min() < 0 or self.end_parents.max() >= joints):
+            raise MienError("every end site must hang on a joint of the skeleton")
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def children(self, joint: int) -> list[int]:
+        """Return the indices of the joints that hang directly on ``joint``."""
+        return [int(i) for i in np.flatnonzero(self.parents == joint)]
+
+    def descendants(self, joint: int) -> list[int]:
+        """Return ``joint`` and all joints below it, in skeleton order."""
+        below = {joint}
+        for i in range(joint + 1, len(self)):
+            if int(self.parents[i]) in below:
+                below.add(i)
+        return sorted(below)
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A skeleton moving: ``rotations`` (T, J, 4) local, ``translations`` (T, J, 3) from the parent.
+
+    A translation replaces the joint's offset (as in Blender and Maya); where a joint does not move
+    it equals the offset. ``frame_time`` in seconds. ``history`` holds the steps that made this
+    motion. ``source`` is the file format's own numbers, kept so that what no edit touched is written
+    back unchanged. The arrays are taken over, not copied: do not write to them afterwards.
+    """
+
+    skeleton: Skeleton
+    rotations: Array
+    translations: Array
+    frame_time: float
+    history: tuple[Step, ...] = ()
+    source: Any = None
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        frames, joints = len(self.rotations), len(self.skeleton)
+        _set(self, "rotations", (frames, joints, 4))
+        _set(self, "translations", (frames, joints, 3))
+        if frames == 0:
+            raise MienError("a motion needs at least one frame")
+        if not (np.isfinite(self.frame_time) and self.frame_time > 0):
+            raise MienError(f"frame time must be above 0 seconds, got {self.frame_time}")
+        if not np.isfinite(self.translations).all():
+            raise MienError("translations hold a number that is not finite")
+        length = np.einsum("tji,tji->tj", self.rotations, self.rotations)
+        if not (np.abs(length - 1.0) < 1e-6).all():
+            raise MienError("rotations must be unit quaternions (xyzw)")
+
+    def __len__(self) -> int:
+        return len(self.rotations)
+
+    def __getitem__(self, frames: slice) -> Self:
+        """Return the motion of a range of frames, e.g. ``motion[10:50]``."""
+        if not isinstance(frames, slice):
+            raise MienError("give a range of frames, e.g. motion[10:50]")
+        return self.with_(
+            rotations=self.rotations[frames],
+            translations=self.translations[frames],
+            frame_time=self.frame_time * abs(frames.step or 1),
+            source=None,
+        )
+
+    @property
+    def fps(self) -> float:
+        """Frames a second."""
+        return 1.0 / self.frame_time
+
+    @property
+    def duration(self) -> float:
+        """Seconds from the first frame to the last: (T - 1) x frame time."""
+        return (len(self) - 1) * self.frame_time
+
+    @property
+    def times(self) -> Array:
+        """The time of every frame in seconds (T,)."""
+        return np.arange(len(self)) * self.frame_time
+
+    def with_(self, **fields: Any) -> Self:
+        """Return a copy with some fields replaced."""
+        return replace(self, **fields)
+
+
+def _set(owner: object, name: str, shape: tuple[int, ...], dtype: type = np.float64) -> None:
+    array: Array = np.asarray(getattr(owner, name), dtype).view()
+    if array.shape != shape:
+        raise MienError(f"{name} must have shape {shape}, got {array.shape}")
+    array.setflags(write=False)
+    object.__setattr__(owner, name, array)

@@ -1,0 +1,1 @@
+"""Pictures of a motion: a mannequin in strips, GIF and video."""
