@@ -1,0 +1,1 @@
+"""Foot contacts: when which foot stands on the floor."""

@@ -1,0 +1,17 @@
+"""Shared fixtures. Real clips are other people's and stay outside the project; without them those tests skip."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+DATA = Path(os.environ.get("MIEN_DATA", ROOT.parent / "shared" / "data"))
+
+
+@pytest.fixture(scope="session")
+def data() -> Path:
+    """The folder of real clips (set MIEN_DATA to use another)."""
+    if not DATA.is_dir():
+        pytest.skip("no real clips: set MIEN_DATA to a folder that has them")
+    return DATA
