@@ -1,0 +1,287 @@
+"""Put the feet back on the floor after an edit.
+
+To the motion: the hips travel so that planted feet do not slide, rise or sink so that they reach the
+floor, and the legs are bent so that every planted foot stands exactly as it stood in the original,
+moved only by the distance that the edited steps are longer or shorter. To the viewer: nothing, which is
+the point.
+
+Contacts come from the original motion (Förger 2011, section 3.5). The thesis moves the hips only,
+against the slip of the planted foot; with both feet down that leaves a residue, so leg IK follows
+(Kovar et al. 2002). Where the thesis lets the hips keep their velocity in flight, here they keep the
+original's flight plus a steady drift: what falls still falls with gravity.
+"""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+
+from ..errors import MienError
+from ..kinematics.body import Body
+from ..kinematics.contacts import Contacts, detect_points, foot_points
+from ..kinematics.fk import end_positions, world
+from ..kinematics.two_bone import two_bone
+from ..motion import Motion
+from ..rotations import quaternion
+from ..signal.bridging import curve_gaps, envelope, hold_gaps, smooth
+from ..typing import Array, Mask
+from .registry import Param, edit
+
+SIDES = ("left", "right")
+
+
+@dataclass(frozen=True, eq=False)
+class _Pose:
+    """A motion with its world rotations (T, J, 4), positions (T, J, 3) and foot points (T, 2, 2, 3)."""
+
+    motion: Motion
+    rotations: Array
+    positions: Array
+    feet: Array
+
+
+@edit(
+    kind="repair",
+    paper="Förger 2011, section 3.5; Kovar, Schreiner & Gleicher 2002",
+    equation="hips(t) = hips(t-1) - mean over planted feet of the change of (foot - hips)",
+    deviations="the correction is measured against the original's own slip, so an unedited clip comes back "
+    "unchanged; leg IK removes what is left in double support; flight keeps gravity",
+)
+def foot_plant(
+    motion: Motion,
+    *,
+    original: Motion | None = None,
+    travel: Annotated[bool, Param("let longer or shorter steps change the distance travelled")] = True,
+    blend: Annotated[float, Param("blends corrections in and out", low=0.02, high=1.0, unit="s")] = 0.25,
+) -> Motion:
+    """Keep planted feet where they stand, after any edit of the pose.
+
+    ``original`` is the motion before the edits, with the same skeleton and frames; its contacts and its
+    foot placements are kept. Without it the motion itself is taken, which changes nothing. Bone lengths
+    are kept; a target out of reach lowers the hips. Raises ``MienError`` when the frames differ.
+    """
+    original = original or motion
+    if motion.rotations.shape != original.rotations.shape:
+        raise MienError(
+            f"foot_plant: the original has {len(original)} frames of {len(original.skeleton)} joints, "
+            f"the edited motion {len(motion)} of {len(motion.skeleton)}; both must be the same"
+        )
+    body = Body.of(original)
+    before, after = _pose(original, body), _pose(motion, body)
+    contacts = detect_points(before.feet, body, motion.frame_time)
+    shift = _hips_shift(before, after, contacts, body, travel)
+    after = _shifted(after, shift, body)
+    goals = [_goal(before, after, contacts, body, foot, blend) for foot in range(2)]
+    drop = _drop(before, after, goals, contacts, body)
+    after = _shifted(after, -drop[:, None] * body.up, body)
+    rotations = np.array(after.motion.rotations)
+    for foot, goal in enumerate(goals):
+        _bend_leg(rotations, before, after, goal, body, foot)
+    return after.motion.with_(rotations=quaternion.continuous(rotations))
+
+
+def _pose(motion: Motion, body: Body) -> _Pose:
+    rotations, positions = world(motion)
+    return _Pose(motion, rotations, positions, foot_points(motion, body, rotations, positions))
+
+
+def _shifted(pose: _Pose, shift: Array, body: Body) -> _Pose:
+    """Move the hips, and with them the body, by ``shift`` (T, 3) in world axes."""
+    if not shift.any():
+        return pose
+    hips = body.roles["hips"]
+    parent = int(pose.motion.skeleton.parents[hips])
+    turned = (
+        quaternion.rotate(quaternion.conjugate(pose.rotations[:, parent]), shift) if parent >= 0 else shift
+    )
+    translations = np.array(pose.motion.translations)
+    translations[:, hips] += turned
+    positions = np.array(pose.positions)
+    positions[:, pose.motion.skeleton.descendants(hips)] += shift[:, None]
+    return _Pose(
+        pose.motion.with_(translations=translations),
+        pose.rotations,
+        positions,
+        pose.feet + shift[:, None, None],
+    )
+
+
+def _hips_shift(before: _Pose, after: _Pose, contacts: Contacts, body: Body, travel: bool) -> Array:
+    """Return how far the hips must move (T, 3): along the ground by the slip, upward to reach the floor."""
+    hips, dt = body.roles["hips"], after.motion.frame_time
+    own = after.positions[:, hips] - before.positions[:, hips]  # what the edit itself did to the hips
+    slip = before.feet - after.feet + own[:, None, None]  # how far the foot went astray, seen from the hips
+    if not contacts.points.any() or not np.abs(slip).max() > 1e-9 * body.leg_length:
+        return np.zeros((len(slip), 3))
+    weight = _settled(contacts, dt)
+    total = weight.sum(axis=(1, 2))
+    known = total > 0
+    share = weight / np.where(known, total, 1.0)[:, None, None]
+    rate = np.einsum("tfp,tfpi->ti", share, np.gradient(slip, axis=0)) if len(slip) > 1 else np.zeros((1, 3))
+    rate = smooth(hold_gaps(rate, known), sigma=0.04 / dt)
+    along = np.cumsum(rate, axis=0) - rate[0] if travel else np.zeros_like(rate)
+    along -= (along @ body.up)[:, None] * body.up
+    rise = np.einsum("tfp,tfpi->ti", share, slip) @ body.up
+    return along + smooth(hold_gaps(rise, known), sigma=0.04 / dt)[:, None] * body.up
+
+
+def _settled(contacts: Contacts, frame_time: float) -> Array:
+    """Return weights (T, 2, 2): 0 off the floor, growing to 1 within 0.1 s from the ends of a contact."""
+    from scipy.ndimage import distance_transform_edt
+
+    out = np.zeros(contacts.points.shape)
+    for index in np.ndindex(2, 2):
+        mask = contacts.points[(slice(None), *index)]
+        inside = distance_transform_edt(mask) if not mask.all() else np.full(len(mask), np.inf)
+        out[(slice(None), *index)] = np.clip(inside * frame_time / 0.1, 0, 1)
+    return out
+
+
+@dataclass(frozen=True, eq=False)
+class _Goal:
+    """Where an ankle must be (T, 3), how its foot must be turned (T, 4), and how much it stands (T,)."""
+
+    ankle: Array
+    turn: Array
+    stands: Array
+
+
+def _goal(before: _Pose, after: _Pose, contacts: Contacts, body: Body, foot: int, blend: float) -> _Goal:
+    """Return the path of one ankle: planted as in the original, moved with the step; else the edit's own."""
+    ankle, dt = body.roles[f"{SIDES[foot]}_ankle"], after.motion.frame_time
+    here, there = after.positions[:, ankle], before.positions[:, ankle]
+    planted = contacts.feet[:, foot]
+    wrong = there - here
+    for start, stop in contacts.spans(foot):
+        moved = (here - there)[start:stop].mean(axis=0)
+        wrong[start:stop] += moved - (moved @ body.up) * body.up
+    astray = quaternion.multiply(before.rotations[:, ankle], quaternion.conjugate(after.rotations[:, ankle]))
+    reach = round(blend / dt)
+    offset = curve_gaps(wrong, planted, reach=reach)
+    turn = quaternion.exp(curve_gaps(quaternion.log(astray), planted, reach=reach))
+    turn = quaternion.multiply(turn, after.rotations[:, ankle])
+    stands = curve_gaps(planted.astype(float), planted, reach=reach)
+    sunk = _sunk(before, after, here + offset, turn, body, foot)
+    lift = envelope(np.where(planted, 0.0, sunk), reach=round(0.08 / dt)) * _clear(planted, dt)
+    return _Goal(here + offset + lift[:, None] * body.up, turn, stands)
+
+
+def _clear(planted: Mask, frame_time: float) -> Array:
+    """Return 0 while planted, growing to 1 within 0.06 s of swing (T,)."""
+    from scipy.ndimage import distance_transform_edt
+
+    if not planted.any():
+        return np.ones(len(planted))
+    return np.clip(distance_transform_edt(~planted) * frame_time / 0.06, 0, 1)
+
+
+def _sunk(before: _Pose, after: _Pose, ankle: Array, turn: Array, body: Body, foot: int) -> Array:
+    """Return how far (T,) the foot is below the lowest level that the original's same foot reaches.
+
+    Looks at the ankle and at every joint and end site below it, each against its own lowest level; a
+    level never below the floor by more than the original itself goes.
+    """
+    skeleton = after.motion.skeleton
+    root = body.roles[f"{SIDES[foot]}_ankle"]
+    below = [j for j in skeleton.descendants(root) if j != root]
+    tips = np.flatnonzero(np.isin(skeleton.end_parents, [root, *below]))
+
+    def rigid(pose: _Pose) -> Array:
+        ends = end_positions(pose.motion, pose.rotations, pose.positions)[:, tips]
+        arms = np.concatenate([pose.positions[:, below], ends], axis=1) - pose.positions[:, [root]]
+        return quaternion.rotate(quaternion.conjugate(pose.rotations[:, [root]]), arms)
+
+    start = before.positions[:, [root]]
+    points = start + quaternion.rotate(before.rotations[:, [root]], rigid(before))
+    lowest = np.concatenate([start, points], axis=1) @ body.up
+    reached = ankle[:, None] + quaternion.rotate(turn[:, None], rigid(after))
+    height = np.concatenate([ankle[:, None], reached], axis=1) @ body.up
+    floor = np.minimum(lowest, np.percentile(lowest, 2, axis=0))
+    return np.maximum((floor - height).max(axis=1), 0.0)
+
+
+def _drop(before: _Pose, after: _Pose, goals: list[_Goal], contacts: Contacts, body: Body) -> Array:
+    """Return how far the hips must come down (T,) for the planted feet to be within reach."""
+    dt = after.motion.frame_time
+    need = np.zeros(len(after.motion))
+    for foot, goal in enumerate(goals):
+        hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
+        length = _bones(after, hip, knee) + _bones(after, knee, ankle)
+        stretched = np.linalg.norm(before.positions[:, ankle] - before.positions[:, hip], axis=1) / length
+        reach = length * np.clip(stretched, 0.995, 1.0)
+        line = after.positions[:, hip] - goal.ankle
+        up = line @ body.up
+        across = np.linalg.norm(line - up[:, None] * body.up, axis=1)
+        standing = np.sqrt(np.maximum(reach**2 - across**2, (0.3 * reach) ** 2))
+        need = np.maximum(need, np.where(contacts.feet[:, foot], up - standing, 0.0))
+    if not (need > 1e-9 * body.leg_length).any():
+        return np.zeros_like(need)
+    return envelope(need, reach=round(0.12 / dt))
+
+
+def _bones(pose: _Pose, a: int, b: int) -> Array:
+    return np.linalg.norm(pose.positions[:, b] - pose.positions[:, a], axis=1)
+
+
+def _bend_leg(
+    rotations: Array,
+    before: _Pose,
+    after: _Pose,
+    goal: _Goal,
+    contacts: Contacts,
+    body: Body,
+    foot: int,
+    blend: float,
+) -> None:
+    """In place: bend one leg so that its ankle and foot reach the goal; the toes stand as in the original."""
+    hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
+    leg, parents = body.leg_length, after.motion.skeleton.parents
+    there = after.positions[:, ankle]
+    turned = np.abs(np.einsum("ti,ti->t", goal.turn, after.rotations[:, ankle])) < 1 - 1e-15
+    if not (np.abs(goal.ankle - there) > 1e-9 * leg).any() and not turned.any():
+        return
+    upper, lower = two_bone(
+        after.positions[:, hip],
+        after.positions[:, knee],
+        there,
+        goal.ankle,
+        quaternion.rotate(after.rotations[:, hip], _hinge(before, body, foot)),
+    )
+    moved = np.array(after.rotations)
+    for joint in after.motion.skeleton.descendants(hip):
+        moved[:, joint] = quaternion.multiply(upper, after.rotations[:, joint])
+    for joint in after.motion.skeleton.descendants(knee):
+        moved[:, joint] = quaternion.multiply(lower, after.rotations[:, joint])
+    moved[:, ankle] = goal.turn
+    for joint in (hip, knee, ankle):
+        parent = int(parents[joint])
+        turned_parent = quaternion.conjugate(moved[:, parent]) if parent >= 0 else quaternion.IDENTITY
+        rotations[:, joint] = quaternion.multiply(turned_parent, moved[:, joint])
+    for joint in after.motion.skeleton.descendants(ankle)[1:]:
+        rotations[:, joint] = quaternion.slerp(
+            rotations[:, joint], before.motion.rotations[:, joint], np.clip(goal.stands, 0, 1)
+        )
+
+
+def _hinge(before: _Pose, body: Body, foot: int) -> Array:
+    """Return the axis (3,) about which the knee bends, in the thigh's own axes, from the original motion."""
+    hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
+    thigh, shank = (
+        before.positions[:, hip] - before.positions[:, knee],
+        before.positions[:, ankle] - before.positions[:, knee],
+    )
+    normal = quaternion.rotate(quaternion.conjugate(before.rotations[:, hip]), np.cross(thigh, shank))
+    mean = normal.sum(axis=0)
+    prior = quaternion.rotate(quaternion.conjugate(_neutral_world(before.motion, body, hip)), -body.left)
+    mean = mean + 0.05 * body.leg_length**2 * prior
+    return mean / np.linalg.norm(mean)
+
+
+def _neutral_world(motion: Motion, body: Body, joint: int) -> Array:
+    """Return the world rotation (4,) of a joint in the neutral stance."""
+    q = body.neutral[joint]
+    parent = int(motion.skeleton.parents[joint])
+    while parent >= 0:
+        q = quaternion.multiply(body.neutral[parent], q)
+        parent = int(motion.skeleton.parents[parent])
+    return q
