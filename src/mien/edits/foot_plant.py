@@ -223,16 +223,7 @@ def _bones(pose: _Pose, a: int, b: int) -> Array:
     return np.linalg.norm(pose.positions[:, b] - pose.positions[:, a], axis=1)
 
 
-def _bend_leg(
-    rotations: Array,
-    before: _Pose,
-    after: _Pose,
-    goal: _Goal,
-    contacts: Contacts,
-    body: Body,
-    foot: int,
-    blend: float,
-) -> None:
+def _bend_leg(rotations: Array, before: _Pose, after: _Pose, goal: _Goal, body: Body, foot: int) -> None:
     """In place: bend one leg so that its ankle and foot reach the goal; the toes stand as in the original."""
     hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
     leg, parents = body.leg_length, after.motion.skeleton.parents

@@ -28,7 +28,7 @@ class Contacts:
     @property
     def feet(self) -> Mask:
         """Whether each foot stands on anything (T, 2)."""
-        return self.points.any(axis=2)
+        return np.asarray(self.points.any(axis=2))
 
     def spans(self, foot: int) -> list[tuple[int, int]]:
         """Return the contacts of a foot (0 left, 1 right) as ``(first frame, frame after the last)``."""
