@@ -1,4 +1,4 @@
-"""Shared fixtures. Real clips are other people's and stay outside the project; without them those tests skip."""
+"""Shared fixtures. Real clips are other people's and stay outside the project; tests skip without them."""
 
 import os
 from pathlib import Path

@@ -67,7 +67,10 @@ class Motion:
     A translation replaces the joint's offset (as in Blender and Maya); where a joint does not move
     it equals the offset. ``frame_time`` in seconds. ``history`` holds the steps that made this
     motion. ``source`` is the file format's own numbers, kept so that what no edit touched is written
-    back unchanged. The arrays are taken over, not copied: do not write to them afterwards.
+    back unchanged. ``reference`` is the motion before the first step of ``history``, carried through
+    the steps that change its frames: repairs compare with it, and it makes the history replay to the
+    same bytes; one that no longer has the motion's shape is dropped. The arrays are taken over, not
+    copied: do not write to them afterwards.
     """
 
     skeleton: Skeleton
@@ -77,6 +80,7 @@ class Motion:
     history: tuple[Step, ...] = ()
     source: Any = None
     name: str = ""
+    reference: Self | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         frames, joints = len(self.rotations), len(self.skeleton)
@@ -91,6 +95,8 @@ class Motion:
         length = np.einsum("tji,tji->tj", self.rotations, self.rotations)
         if not (np.abs(length - 1.0) < 1e-6).all():
             raise MienError("rotations must be unit quaternions (xyzw)")
+        if self.reference is not None and self.reference.rotations.shape != self.rotations.shape:
+            object.__setattr__(self, "reference", None)
 
     def __len__(self) -> int:
         return len(self.rotations)
@@ -104,6 +110,7 @@ class Motion:
             translations=self.translations[frames],
             frame_time=self.frame_time * abs(frames.step or 1),
             source=None,
+            reference=self.reference[frames] if self.reference else None,
         )
 
     @property

@@ -1,8 +1,8 @@
 """Apply steps and recipes to a motion.
 
 Strength moves an edit's parameters from neutral; body parts and time spans blend the edited motion
-with the one before. Repairs get the reference: the motion before any step, carried through the steps
-that change its frames.
+with the one before. Repairs get the reference: the motion before the first step of its history, also
+when the steps were applied in several calls.
 """
 
 from collections.abc import Iterable, Sequence
@@ -16,7 +16,7 @@ from ..motion import Motion
 from ..recipe import Recipe, Step
 from ..rotations import quaternion
 from ..typing import Array
-from .registry import EDITS, Edit
+from .registry import EDITS
 
 
 def check(step: Step) -> Step:
@@ -48,34 +48,31 @@ def apply(
     ``strength`` multiplies every step's own (0 returns the motion itself); ``parts`` and ``span``
     limit the steps that name none.
     """
+    if not 0.0 <= strength <= 2.0:
+        raise RecipeError(f"strength must be from 0 to 2, got {strength:g}")
     steps = [check(s) for s in (recipe.steps if isinstance(recipe, Recipe) else recipe)]
     if strength == 0.0:
         return motion
-    reference = motion
     for step in steps:
-        edit = EDITS[step.edit]
+        pose = EDITS[step.edit].kind == "pose"
         step = replace(
             step,
-            strength=min(step.strength * strength, 2.0) if edit.kind == "pose" else step.strength,
-            parts=step.parts or tuple(parts) if edit.kind == "pose" else (),
-            span=step.span or span if edit.kind == "pose" else None,
+            strength=min(step.strength * strength, 2.0) if pose else step.strength,
+            parts=step.parts or tuple(parts) if pose else (),
+            span=step.span or span if pose else None,
         )
-        motion, reference = _apply_step(motion, reference, edit, step)
+        motion = _apply_step(motion, step)
     return motion
 
 
-def _apply_step(motion: Motion, reference: Motion, edit: Edit, step: Step) -> tuple[Motion, Motion]:
+def _apply_step(motion: Motion, step: Step) -> Motion:
     if step.strength == 0.0:
-        return motion, reference
-    values = edit.scaled(step.parameters, step.strength)
-    extra = {"original": reference} if edit.kind == "repair" else {}
-    after = edit.run(motion, **values, **extra)
-    if edit.kind == "time":
-        reference = reference if reference is motion else edit.run(reference, **values)
-        reference = after if reference is motion else reference
+        return motion
+    edit = EDITS[step.edit]
+    after = edit.perform(motion, edit.scaled(step.parameters, step.strength))
     if step.parts or step.span:
         after = _blend(motion, after, _weights(motion, step))
-    return after.with_(history=(*motion.history, step)), reference
+    return after.with_(history=(*motion.history, step))
 
 
 def _weights(motion: Motion, step: Step) -> Array:
@@ -96,7 +93,7 @@ def _weights(motion: Motion, step: Step) -> Array:
 def _blend(before: Motion, after: Motion, weights: Array) -> Motion:
     """Blend joint by joint; weight 0 gives the numbers of ``before`` and 1 those of ``after``, exactly."""
     rotations, translations = np.array(before.rotations), np.array(before.translations)
-    whole, part = weights == 1.0, (weights > 0.0) & (weights < 1.0)
+    whole, part = weights >= 1.0, (weights > 0.0) & (weights < 1.0)
     rotations[whole], translations[whole] = after.rotations[whole], after.translations[whole]
     w = weights[part]
     rotations[part] = quaternion.slerp(before.rotations[part], after.rotations[part], w)

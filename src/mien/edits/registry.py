@@ -4,7 +4,8 @@ import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import wraps
-from math import inf
+from math import inf, isfinite
+from numbers import Real
 from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
@@ -65,6 +66,15 @@ class Edit:
     deviations: str
     parameters: Mapping[str, Parameter]
 
+    def perform(self, motion: Motion, values: Mapping[str, Any], *, original: Motion | None = None) -> Motion:
+        """Run the edit with checked values, giving a repair the reference and carrying that along."""
+        reference = motion.reference or motion
+        extra = {"original": original or reference} if self.kind == "repair" else {}
+        after = self.run(motion, **values, **extra)
+        if self.kind == "time":
+            reference = after if reference is motion else self.run(reference, **values)
+        return after.with_(reference=reference)
+
     def complete(self, given: Mapping[str, Any]) -> dict[str, Any]:
         """Return all parameters: those given, checked, and the defaults of the others."""
         for name in given:
@@ -96,7 +106,8 @@ def edit(*, kind: Kind = "pose", paper: str, equation: str = "", deviations: str
     """Register ``function(motion, *, parameters) -> Motion`` under its name.
 
     The registered function checks its parameters and appends one step to the motion's history. A
-    ``repair`` also takes ``original``, the motion to compare with, which is not a parameter.
+    ``repair`` also takes ``original``, the motion to compare with (without it the motion before the first
+    step of the history), which is not a parameter.
     """
 
     def register(function: Callable[..., Motion]) -> Callable[..., Motion]:
@@ -107,9 +118,9 @@ def edit(*, kind: Kind = "pose", paper: str, equation: str = "", deviations: str
 
         @wraps(function)
         def run(motion: Motion, **given: Any) -> Motion:
-            extra = {"original": given.pop("original", None)} if kind == "repair" else {}
+            original = given.pop("original", None) if kind == "repair" else None
             values = found.complete(given)
-            after = function(motion, **values, **extra)
+            after = found.perform(motion, values, original=original)
             return after.with_(history=(*motion.history, Step(name, values)))
 
         EDITS[name] = found
@@ -130,6 +141,8 @@ def check_value(owner: str, parameter: Parameter, value: Any) -> Any:
     if parameter.kind in (float, int):
         return _number(where, parameter, value)
     if parameter.kind is tuple:
+        if not isinstance(value, str | list | tuple):
+            raise RecipeError(f"{where} must be a list, got {value!r}")
         items = [value] if isinstance(value, str) else list(value)
         for item in items:
             if parameter.choices and item not in parameter.choices:
@@ -143,12 +156,13 @@ def check_value(owner: str, parameter: Parameter, value: Any) -> Any:
 
 
 def _number(where: str, parameter: Parameter, value: Any) -> float | int:
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
         raise RecipeError(f"{where} must be a number, got {value!r}")
     about, unit = parameter.about, f" {parameter.about.unit}".rstrip()
     low, high = about.low, about.high
-    if value != value or (low is not None and value < low) or (high is not None and value > high):
-        bounds = f"from {low:g} to {high:g}" if low is not None and high is not None else f"at least {low}"
+    if (low is not None and value < low) or (high is not None and value > high):
+        bounds = f"at least {low:g}" if high is None else f"at most {high:g}"
+        bounds = f"from {low:g} to {high:g}" if low is not None and high is not None else bounds
         raise RecipeError(f"{where} must be {bounds}{unit}, got {value:g}")
     if parameter.kind is int:
         if int(value) != value:

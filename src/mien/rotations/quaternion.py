@@ -95,12 +95,14 @@ def between(a: Array, b: Array) -> Array:
     la = np.sqrt(np.einsum("...i,...i->...", a, a))[..., None]
     lb = np.sqrt(np.einsum("...i,...i->...", b, b))[..., None]
     a, b = np.broadcast_arrays(a / np.maximum(la, 1e-300), b / np.maximum(lb, 1e-300))
-    cosine = np.einsum("...i,...i->...", a, b)[..., None]
-    q = np.concatenate([np.cross(a, b), 1.0 + cosine], axis=-1)
-    opposite = cosine < -1.0 + 1e-12
+    # a x b = a x (a + b) and 1 + a.b = |a + b|^2 / 2 keep their precision close to opposite.
+    both = a + b
+    square = np.einsum("...i,...i->...", both, both)[..., None]
+    q = np.concatenate([np.cross(a, both), 0.5 * square], axis=-1)
+    opposite = square < 1e-20
     if opposite.any():
         other = np.where(np.abs(a[..., :1]) < 0.9, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
-        half_turn = np.concatenate([np.cross(a, other), np.zeros_like(cosine)], axis=-1)
+        half_turn = np.concatenate([np.cross(a, other), np.zeros_like(square)], axis=-1)
         q = np.where(opposite, half_turn, q)
     return normalise(q)
 
