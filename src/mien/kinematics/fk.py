@@ -4,6 +4,8 @@ Arrays are worked on joint by joint, each component a contiguous row over frames
 than matrices, and the whole clip goes through in one pass.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ..motion import Motion
@@ -40,6 +42,20 @@ def fk(rotations: Array, translations: Array, parents: Integers) -> tuple[Array,
 def world(motion: Motion) -> tuple[Array, Array]:
     """Return the world rotations ``(T, J, 4)`` and positions ``(T, J, 3)`` of a motion."""
     return fk(motion.rotations, motion.translations, motion.skeleton.parents)
+
+
+def chain(motion: Motion, joints: Sequence[int]) -> tuple[list[int], Array, Array]:
+    """Return the joints from the roots to ``joints``, in order, and the world transforms of only these."""
+    parents = motion.skeleton.parents
+    needed: set[int] = set()
+    for joint in joints:
+        while joint >= 0 and joint not in needed:
+            needed.add(joint)
+            joint = int(parents[joint])
+    order = sorted(needed)
+    place = {joint: i for i, joint in enumerate(order)}
+    above = np.array([place.get(int(parents[joint]), -1) for joint in order])
+    return order, *fk(motion.rotations[:, order], motion.translations[:, order], above)
 
 
 def to_local(rotations: Array, positions: Array, parents: Integers) -> tuple[Array, Array]:

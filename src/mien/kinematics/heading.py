@@ -6,18 +6,39 @@ Euler angle of the hips (METHODS F3).
 
 import numpy as np
 
+from ..motion import Motion
 from ..rotations import quaternion
 from ..typing import Array
 from .body import Body
+from .fk import chain
 
 
 def heading(positions: Array, body: Body) -> Array:
     """Return the yaw (T,) in radians about ``body.up`` from ``body.forward``, without jumps in time."""
-    side = positions[:, body.roles["left_hip"]] - positions[:, body.roles["right_hip"]]
-    facing = np.cross(side, body.up)
-    return np.unwrap(np.arctan2(facing @ np.cross(body.up, body.forward), facing @ body.forward))
+    return _yaw(positions[:, body.roles["left_hip"]] - positions[:, body.roles["right_hip"]], body)
 
 
 def heading_rotation(positions: Array, body: Body) -> Array:
     """Return the rotations (T, 4) that turn the neutral facing into the facing of each frame."""
     return quaternion.exp(heading(positions, body)[:, None] * body.up)
+
+
+def hips_frame(motion: Motion, body: Body) -> Array:
+    """Return the rotations (T, 4) from the frame that turns with the heading to that of the hips' parent.
+
+    ``local = frame * free``: multiply the hips' local rotations by the conjugate to free them of the
+    heading (and of any joints above them), by the frame to put it back.
+    """
+    roles, parents = body.roles, motion.skeleton.parents
+    joints, turned, positions = chain(motion, [roles["left_hip"], roles["right_hip"]])
+    left, right = (positions[:, joints.index(roles[f"{side}_hip"])] for side in ("left", "right"))
+    frame = quaternion.exp(_yaw(left - right, body)[:, None] * body.up)
+    above = int(parents[roles["hips"]])
+    if above < 0:
+        return frame
+    return quaternion.multiply(quaternion.conjugate(turned[:, joints.index(above)]), frame)
+
+
+def _yaw(side: Array, body: Body) -> Array:
+    facing = np.cross(side, body.up)
+    return np.unwrap(np.arctan2(facing @ np.cross(body.up, body.forward), facing @ body.forward))
