@@ -1,0 +1,69 @@
+"""What figures stand on: soft shadows below the body, and a metre grid that makes sliding feet visible."""
+
+import numpy as np
+
+from ..typing import Array
+from .solids import Camera, Solids
+
+DARKNESS, FADE, REACH = 0.34, 0.16, 0.4  # of the shadow; heights in leg lengths
+LINE, PATCH = 0.10, 2.2  # darkness of the grid lines; radius of the visible floor in leg lengths
+
+
+def shadow(
+    dark: Array, solids: Solids, pose: int, camera: Camera, up: Array, floor: float, size: float
+) -> None:
+    """Darken ``dark (H, W)``, 0 to 1, in place below every part near the floor, less the higher it is."""
+    points = np.concatenate([solids.starts[pose], solids.ends[pose], solids.centres[pose]])
+    reach = np.linalg.norm(solids.axes[pose], axis=1).min(axis=-1) if len(solids.axes[pose]) else np.zeros(0)
+    radii = np.concatenate([solids.start_radii, solids.end_radii, reach])
+    height = np.maximum(points @ up - floor - radii, 0.0) / size
+    near = np.flatnonzero(height < REACH)
+    spots = camera.project(points[near] + (floor - points[near] @ up)[:, None] * up)
+    tilt = max(abs(float(camera.axes[2] @ up)), 0.12)
+    for spot, radius, h in zip(spots, radii[near] * camera.scale, height[near], strict=True):
+        spread = radius * (1.3 + 2.0 * h) + 1.0
+        _spot(dark, spot, spread, spread * tilt, DARKNESS * np.exp(-h / FADE))
+
+
+def _spot(dark: Array, centre: Array, width: float, height: float, strength: float) -> None:
+    x0, x1 = (int(np.clip(centre[0] + s * 2.5 * width, 0, dark.shape[1])) for s in (-1, 1))
+    y0, y1 = (int(np.clip(centre[1] + s * 2.5 * height + 1, 0, dark.shape[0])) for s in (-1, 1))
+    x = np.exp(-(((np.arange(x0, x1) + 0.5 - centre[0]) / width) ** 2))
+    y = np.exp(-(((np.arange(y0, y1) + 0.5 - centre[1]) / height) ** 2))
+    part = dark[y0:y1, x0:x1]
+    np.maximum(part, strength * y[:, None] * x[None], out=part)
+
+
+def grid(canvas: Array, camera: Camera, up: Array, middle: Array, size: float, step: float) -> None:
+    """Draw a round patch of floor around ``middle (3)`` with lines every ``step`` units, in place.
+
+    The lines stay where they are in the world while the camera moves.
+    """
+    tilt = float(camera.axes[2] @ up)
+    if tilt < 0.05:  # seen from the side the floor is a line
+        y = camera.project(middle)[1]
+        canvas[round(y) :] *= 0.955
+        return
+    height, width = canvas.shape[:2]
+    # A pixel's point on the floor: from the middle, along the camera's right and along the floor away.
+    away = np.cross(up, camera.axes[0])
+    centre = camera.project(middle)
+    right = ((np.arange(width) + 0.5 - centre[0]) / camera.scale)[None].astype(np.float32)
+    back = ((centre[1] - np.arange(height) - 0.5) / (camera.scale * tilt))[:, None].astype(np.float32)
+    patch = 1.0 - (right**2 + back**2) / (PATCH * size) ** 2
+    patch = np.clip(2.0 * patch, 0.0, 1.0)
+    first = _floor_axis(up)
+    lines = np.zeros((height, width), np.float32)
+    for axis in (first, np.cross(up, first)):
+        place = float(middle @ axis) + float(camera.axes[0] @ axis) * right + float(away @ axis) * back
+        slope = np.hypot(camera.axes[0] @ axis, (away @ axis) / tilt) / camera.scale
+        distance = np.abs((place / step + 0.5) % 1.0 - 0.5) * step / slope
+        np.maximum(lines, np.clip(1.3 - distance, 0.0, 1.0), out=lines)
+    canvas *= (1.0 - patch * (0.045 + LINE * lines))[..., None]
+
+
+def _floor_axis(up: Array) -> Array:
+    """Return the world axis that is most level."""
+    axis = np.eye(3)[int(np.argmin(np.abs(up)))]
+    level = axis - (axis @ up) * up
+    return level / np.linalg.norm(level)
