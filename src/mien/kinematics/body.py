@@ -5,19 +5,25 @@ Edits speak of roles and of leg lengths, so they work on any humanoid.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Self
+from typing import Any, Self
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from ..errors import BodyError, unknown
 from ..motion import Motion
+from ..rotations import quaternion
 from ..typing import Array
-
-SIDES = ("left", "right")
-ARM, LEG = ("collar", "shoulder", "elbow", "wrist"), ("hip", "knee", "ankle", "toe")
-TRUNK = ("hips", "spine", "chest", "neck", "head")
-ROLES = (*TRUNK, *(f"{s}_{r}" for s in SIDES for r in ARM + LEG))
-OPTIONAL = {*TRUNK[1:], *(f"{s}_{r}" for s in SIDES for r in ("collar", "wrist", "toe"))}
+from . import measures, stance, topology
+from . import roles as naming
+from .fk import fk
+from .roles import ARM as ARM
+from .roles import LEG as LEG
+from .roles import OPTIONAL as OPTIONAL
+from .roles import ROLES as ROLES
+from .roles import SIDES as SIDES
+from .roles import TRUNK as TRUNK
+from .roles import read_map as read_map
 
 # Names a person may give to --parts; each is a set of the five limbs and the torso.
 PARTS: Mapping[str, tuple[str, ...]] = {
@@ -70,7 +76,11 @@ class Body:
         Raises ``BodyError`` with the joints and the lines to add to a map file when a needed role
         is not found.
         """
-        raise BodyError("not yet")
+        key = (cls, tuple(sorted((map or {}).items())))
+        known = _FOUND.setdefault(motion, {})
+        if key not in known:
+            known[key] = cls(**_find(motion, map or {}))
+        return known[key]
 
     def joints(self, parts: tuple[str, ...]) -> list[int]:
         """Return the joints of named body parts or roles; empty means every joint."""
@@ -92,3 +102,53 @@ class Body:
     def left(self) -> Array:
         """The unit vector to the body's left in the neutral stance: ``up x forward``."""
         return np.cross(self.up, self.forward)
+
+
+# A motion never changes, so what was found in it stays true for as long as it lives.
+_FOUND: WeakKeyDictionary[Motion, dict[Any, Any]] = WeakKeyDictionary()
+
+_FRAMES = 64  # evenly spaced frames that the shape is read from
+
+
+def _find(motion: Motion, chosen: Mapping[str, str]) -> dict[str, Any]:
+    """Return the fields of the body: first the roles, then what follows from them."""
+    skeleton = motion.skeleton
+    pick = np.unique(np.linspace(0, len(motion) - 1, min(len(motion), _FRAMES)).round().astype(int))
+    local, moved = motion.rotations[pick], motion.translations[pick]
+    world, points = fk(local, moved, skeleton.parents)
+    ends = quaternion.rotate(world[:, skeleton.end_parents], skeleton.end_offsets)
+    tree = topology.tree(skeleton, points, points[:, skeleton.end_parents] + ends, _turning(local))
+    found = topology.find(tree) | naming.chosen(skeleton, chosen)
+    roles = {role: found[role] for role in ROLES if role in found}
+    naming.require(skeleton, roles)
+    offsets = np.median(moved, axis=0)
+    shape = _chains(tree, roles)
+    up, forward, neutral = stance.neutral(skeleton, local, world, points, offsets, roles)
+    leg = measures.leg_length(points, roles)
+    sole = measures.soles(skeleton, neutral, offsets, roles, up, leg)
+    return {
+        "roles": roles,
+        **shape,
+        "limbs": naming.limbs(roles),
+        "up": up,
+        "forward": forward,
+        "leg_length": leg,
+        "height": measures.height(skeleton, neutral, offsets, roles, up, leg, sole),
+        "floor": measures.floor(motion, roles, up, sole),
+        "metres_per_unit": measures.metres_per_unit(leg),
+        "neutral": neutral,
+        "parts_of": naming.parts(tree, roles, shape["neck"]),
+    }
+
+
+def _chains(tree: topology.Tree, roles: Mapping[str, int]) -> dict[str, tuple[int, ...]]:
+    """Return the spine, hips to chest, and the neck, chest to head."""
+    top = roles.get("chest", roles["hips"])
+    neck = tree.between(top, roles["head"])[:-1] if "head" in roles else []
+    return {"spine": tuple(tree.between(roles["hips"], top)), "neck": tuple(neck)}
+
+
+def _turning(rotations: Array) -> Array:
+    """Return the largest angle (J,) between a joint's rotation and its first, radians."""
+    cosine = np.abs(np.einsum("tji,ji->tj", rotations, rotations[0]))
+    return np.asarray(2.0 * np.arccos(np.minimum(cosine, 1.0)).max(axis=0))

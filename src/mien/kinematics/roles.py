@@ -1,0 +1,88 @@
+"""The roles of a body, the user's map of them, and what follows from them: limbs and body parts."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+
+from ..errors import BodyError, unknown
+from ..motion import Skeleton
+from .topology import Tree
+
+SIDES = ("left", "right")
+ARM, LEG = ("collar", "shoulder", "elbow", "wrist"), ("hip", "knee", "ankle", "toe")
+TRUNK = ("hips", "spine", "chest", "neck", "head")
+ROLES = (*TRUNK, *(f"{s}_{r}" for s in SIDES for r in ARM + LEG))
+OPTIONAL = {*TRUNK[1:], *(f"{s}_{r}" for s in SIDES for r in ("collar", "wrist", "toe"))}
+
+
+def read_map(path: str | Path) -> dict[str, str]:
+    """Return role -> joint name from a map file: TOML with one table, ``[roles]``.
+
+    ``hips = "pelvis"`` says that the joint named pelvis is the hips. Raises ``BodyError`` if the
+    file cannot be read, is not TOML, or names a role that does not exist.
+    """
+    try:
+        content = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise BodyError(f"cannot read the map file {path}: {error.strerror}") from error
+    except ValueError as error:
+        raise BodyError(f"the map file {path} is not valid TOML: {error}") from error
+    table = content.get("roles")
+    if set(content) != {"roles"} or not isinstance(table, dict):
+        raise BodyError(f'the map file {path} needs one table of roles, e.g.\n[roles]\nhips = "pelvis"')
+    for role, name in table.items():
+        if role not in ROLES:
+            raise BodyError(f"{path}: {unknown('role', role, ROLES)}")
+        if not isinstance(name, str):
+            raise BodyError(f"{path}: {role} must be a joint name in quotes, got {name!r}")
+    return dict(table)
+
+
+def chosen(skeleton: Skeleton, names: Mapping[str, str]) -> dict[str, int]:
+    """Return role -> joint for a user's role -> name. Raises ``BodyError`` with the nearest names."""
+    out = {}
+    for role, name in names.items():
+        if role not in ROLES:
+            raise BodyError(unknown("role", role, ROLES))
+        if name not in skeleton.names:
+            raise BodyError(f"{role}: {unknown('joint', name, skeleton.names)}")
+        out[role] = skeleton.names.index(name)
+    return out
+
+
+def require(skeleton: Skeleton, roles: Mapping[str, int]) -> None:
+    """Raise ``BodyError`` with the lines to add to a map file if a needed role is missing."""
+    missing = [role for role in ROLES if role not in roles and role not in OPTIONAL]
+    if not missing:
+        return
+    lines = "\n".join(f'{role} = "..."' for role in missing)
+    raise BodyError(
+        f"not found in this skeleton of {len(skeleton)} joints: {', '.join(missing)}. "
+        f"Its joints are: {', '.join(skeleton.names)}. If it is a whole humanoid, write these lines "
+        f"with its joint names into a file and give it with --map FILE:\n[roles]\n{lines}"
+    )
+
+
+def limbs(roles: Mapping[str, int]) -> dict[str, tuple[int, ...]]:
+    """Return limb -> its joints that play a role, from the root to the tip."""
+    chains: dict[str, tuple[str, ...]] = {"head": ("neck", "head")}
+    for side in SIDES:
+        chains[f"{side}_arm"] = tuple(f"{side}_{r}" for r in ARM)
+        chains[f"{side}_leg"] = tuple(f"{side}_{r}" for r in LEG)
+    return {limb: tuple(roles[r] for r in chain if r in roles) for limb, chain in chains.items()}
+
+
+def parts(tree: Tree, roles: Mapping[str, int], neck: tuple[int, ...]) -> tuple[str, ...]:
+    """Return for each joint the part it belongs to: head, torso, a limb, or "" outside the hips."""
+    roots = {j: "head" for j in (*neck, roles.get("head", -1)) if j >= 0}
+    for kind, role in (("leg", "hip"), ("arm", "shoulder")):
+        pair = [roles[f"{side}_{role}"] for side in SIDES]
+        junction = tree.common(pair)
+        for side, joint in zip(SIDES, pair, strict=True):
+            roots[tree.between(junction, joint)[0]] = f"{side}_{kind}"
+    roots[roles["hips"]] = "torso"
+    out: list[str] = []
+    for joint in range(len(tree.names)):
+        parent = tree.parents[joint]
+        out.append(roots.get(joint, out[parent] if parent >= 0 else ""))
+    return tuple(out)
