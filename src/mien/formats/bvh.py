@@ -1,0 +1,172 @@
+"""BVH: read and write, without loss and without surprise.
+
+Reading keeps the file's header and numbers; writing gives them back where nothing was changed. Damage
+is refused with file and line, or with ``salvage`` cut away.
+"""
+
+import re
+from dataclasses import replace
+
+from ..errors import FormatError
+from ..motion import Motion, Skeleton
+from ..typing import Array
+from .bvh_channels import BvhSource, to_motion, to_values
+from .bvh_header import (
+    POSITIONS,
+    BvhLayout,
+    decode,
+    number,
+    read_hierarchy,
+    write_hierarchy,
+)
+from .bvh_numbers import read_rows, write_rows
+
+_MOTION = re.compile(rb"(?:\A|[\r\n}])[ \t]*(MOTION)(?=\s|\Z)", re.IGNORECASE)
+_COUNT = re.compile(rb"\s*Frames[\s:]*([^\s:]+)", re.IGNORECASE)
+_TIME = re.compile(rb"\s*Frame[ \t]*Time[\s:]*([^\s:]+)[ \t]*(\r\n|\n|\r|\Z)", re.IGNORECASE)
+_LINE = re.compile(rb"\r\n|\n|\r")
+
+
+def parse(data: bytes, where: str, *, fps: float | None = None, salvage: bool = False) -> Motion:
+    """Make a motion of the bytes of a BVH file; ``where`` names the file in errors."""
+    skeleton, layout, declared = _read_header(data, where, fps=fps, salvage=salvage)
+    values = _read_values(data, where, layout, declared, salvage=salvage)
+    rotations, translations = to_motion(values, skeleton, layout.channels)
+    return Motion(
+        skeleton=replace(skeleton, layout=layout),
+        rotations=rotations,
+        translations=translations,
+        frame_time=1.0 / fps if fps else layout.frame_time,
+        source=BvhSource(layout.channels, values, rotations, translations),
+    )
+
+
+def render(motion: Motion) -> bytes:
+    """Return the bytes of the BVH file that holds ``motion``."""
+    layout = _layout(motion)
+    values = to_values(motion, layout.channels, decimals=max(layout.decimals, 6))
+    return _stamp(layout, len(motion), motion.frame_time) + write_rows(values, layout.newline)
+
+
+def _read_header(
+    data: bytes, where: str, *, fps: float | None, salvage: bool
+) -> tuple[Skeleton, BvhLayout, int]:
+    found = _MOTION.search(data)
+    if found is None:
+        raise FormatError(f"{where}: {_no_motion(data)}")
+    text, encoding = decode(data[: found.start(1)], where)
+    skeleton, channels, _whole = read_hierarchy(text, where, salvage=salvage)
+    if not any(channels):
+        raise FormatError(f"{where}: no joint has channels, so there is no motion in the file")
+    count = _COUNT.match(data, found.end())
+    time = count and _TIME.match(data, count.end())
+    if not count or not time:
+        line = _line(data, count.end() if count else found.end())
+        raise FormatError(
+            f"{where} line {line}: expected 'Frame{'s: 10' if not count else ' Time: 0.01'}' here"
+        )
+    layout = BvhLayout(
+        channels=channels,
+        header=data[: time.end()],
+        count=count.span(1),
+        time=time.span(1),
+        frame_time=_frame_time(time[1], f"{where} line {_line(data, time.start(1))}", fps=fps),
+        newline=time[2] or b"\n",
+        encoding=encoding,
+    )
+    return skeleton, layout, _frames(count[1], f"{where} line {_line(data, count.start(1))}")
+
+
+def _no_motion(data: bytes) -> str:
+    if not data.strip():
+        return "the file is empty"
+    if b"\0" in data[:4096]:
+        return "this is not a text file, so not BVH"
+    if data.removeprefix(b"\xef\xbb\xbf").lstrip()[:9].upper() != b"HIERARCHY":
+        return "not a BVH file: it does not start with HIERARCHY"
+    return "there is no MOTION section; the file looks cut off in the hierarchy"
+
+
+def _line(data: bytes, at: int) -> int:
+    """Return the number, from 1, of the line that holds byte ``at``."""
+    return 1 + len(_LINE.findall(data, 0, at))
+
+
+def _frames(text: bytes, where: str) -> int:
+    if not re.fullmatch(rb"\+?\d{1,18}", text) or int(text) == 0:
+        raise FormatError(
+            f"{where}: the number of frames must be a whole number above 0, found {_show(text)}"
+        )
+    return int(text)
+
+
+def _frame_time(text: bytes, where: str, *, fps: float | None) -> float:
+    seconds = number(text.decode("latin-1"))
+    if 1e-6 <= seconds <= 1e4:
+        return seconds
+    if fps:
+        return 1.0 / fps
+    raise FormatError(
+        f"{where}: the frame time must be seconds above 0, found {_show(text)} (use --fps to override it)"
+    )
+
+
+def _show(text: bytes) -> str:
+    return repr(text[:30].decode("latin-1"))
+
+
+def _read_values(data: bytes, where: str, layout: BvhLayout, declared: int, *, salvage: bool) -> Array:
+    body = data[len(layout.header) :]
+    values, problem = read_rows(body, layout.width)
+    frames = len(values)
+    keep = f"use --salvage to keep the first {frames} frames" if frames else "no frame is whole"
+    if problem and (not salvage or not frames):
+        line = _line(data, len(layout.header)) + problem.line
+        raise FormatError(f"{where} line {line}: {problem.message}; stopped after frame {frames} ({keep})")
+    if not frames:
+        raise FormatError(
+            f"{where}: {declared} frames are declared, but there are no numbers after the header"
+        )
+    if frames != declared and not salvage:
+        line = _line(data, layout.count[0])
+        raise FormatError(
+            f"{where} line {line}: {declared} frames are declared, but {frames} follow "
+            f"(use --salvage to take the {frames})"
+        )
+    return values
+
+
+def _layout(motion: Motion) -> BvhLayout:
+    """Return the layout to write with: the file's own while the skeleton is the one it describes."""
+    skeleton = motion.skeleton
+    layout = skeleton.layout
+    if not isinstance(layout, BvhLayout) or len(layout.channels) != len(skeleton):
+        return _new_layout(skeleton, _default_channels(motion))
+    return layout
+
+
+def _default_channels(motion: Motion) -> tuple[tuple[str, ...], ...]:
+    """Return three rotations for every joint, and positions for roots and for joints that move."""
+    turns = ("Zrotation", "Xrotation", "Yrotation")
+    moves = (motion.translations != motion.skeleton.offsets).any(axis=(0, 2)) | (motion.skeleton.parents < 0)
+    return tuple(POSITIONS + turns if moved else turns for moved in moves)
+
+
+def _new_layout(skeleton: Skeleton, channels: tuple[tuple[str, ...], ...]) -> BvhLayout:
+    before = "\n".join([*write_hierarchy(skeleton, channels), "MOTION", "Frames: "]).encode()
+    between = b"0\nFrame Time: "
+    time = len(before) + len(between)
+    return BvhLayout(
+        channels=channels,
+        header=before + between + b"0\n",
+        count=(len(before), len(before) + 1),
+        time=(time, time + 1),
+        frame_time=0.0,
+    )
+
+
+def _stamp(layout: BvhLayout, frames: int, frame_time: float) -> bytes:
+    """Return the header with the number of frames and, where it changed, the frame time put in."""
+    header, (a, b), (c, d) = layout.header, layout.count, layout.time
+    time = header[c:d] if frame_time == layout.frame_time else repr(frame_time).encode()
+    return b"".join([header[:a], str(frames).encode(), header[b:c], time, header[d:]])

@@ -1,0 +1,57 @@
+"""Bytes from and to disk: errors that say what to do, and files that appear whole or not at all."""
+
+import os
+import tempfile
+from pathlib import Path
+
+from ..errors import FormatError
+
+
+def read(path: Path) -> bytes:
+    """Return the bytes of a file; ``FormatError`` when it is missing, a folder or not readable."""
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise FormatError(f"{path}: there is no such file") from None
+    except IsADirectoryError:
+        raise FormatError(f"{path} is a folder; give a file in it") from None
+    except PermissionError:
+        raise FormatError(f"{path}: no permission to read it") from None
+    except (OSError, ValueError) as error:
+        raise FormatError(f"{path}: cannot be read ({error})") from None
+
+
+def check_target(path: Path, *, force: bool) -> None:
+    """Raise ``FormatError`` unless ``path`` may be written: its folder exists, and nothing is lost."""
+    if path.is_dir():
+        raise FormatError(f"{path} is a folder; give the name of the file to write in it")
+    if not path.parent.is_dir():
+        raise FormatError(f"{path}: there is no folder {path.parent}; make it first")
+    if path.exists() and not force:
+        raise FormatError(f"{path} exists already; use --force to replace it")
+
+
+def write(path: Path, data: bytes) -> None:
+    """Write ``data`` beside ``path`` and move it into place, so that no half-written file is ever seen."""
+    target = path.resolve()  # a link stays a link: what it points to is replaced
+    temporary = None
+    try:
+        with tempfile.NamedTemporaryFile(dir=target.parent, prefix=f".{target.name}.", delete=False) as file:
+            temporary = Path(file.name)
+            file.write(data)
+        temporary.chmod(_mode(target))
+        temporary.replace(target)
+    except OSError as error:
+        raise FormatError(f"{path}: cannot be written ({error.strerror or error})") from None
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
+
+
+def _mode(path: Path) -> int:
+    """Return the permissions to give: those of the file replaced, else what a plain ``open`` gives."""
+    if path.exists():
+        return path.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
