@@ -40,8 +40,9 @@ def encode(q: Array, u: Array, v: Array) -> Array:
 def degenerate(codes: Array) -> Mask:
     """Return where ``(...)`` codes say nothing: a vanished direction, or both directions parallel."""
     d, n = codes[..., :3], codes[..., 3:]
-    length, area = np.einsum("...i,...i->...", d, d), _square_of_cross(d, n)
-    return (length < SHORTEST**2) | (area < SHORTEST**2)
+    along, across = np.einsum("...i,...i->...", d, d), np.einsum("...i,...i->...", n, n)
+    parallel = _square_of_cross(d, n) < SHORTEST**2 * along * across
+    return (along < SHORTEST**2) | (across < SHORTEST**2) | parallel
 
 
 def decode(
