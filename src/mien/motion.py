@@ -4,6 +4,7 @@ Frames first, joints second, components last. Quaternions ``xyzw``, unit, child-
 the clip's own unit. ``T`` frames, ``J`` joints, ``E`` end sites.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
@@ -21,6 +22,7 @@ class Skeleton:
     ``names`` (J), ``parents`` (J, -1 for a root, else an earlier joint), ``offsets`` (J, 3) from the
     parent; ``end_parents`` (E) and ``end_offsets`` (E, 3) are the tips of the last bones.
     ``layout`` is whatever the file's format keeps aside so that saving gives back what came in.
+    ``roles`` (role -> joint name) is what a user's map file says of the body; usually empty.
     """
 
     names: tuple[str, ...]
@@ -29,6 +31,7 @@ class Skeleton:
     end_parents: Integers = field(default_factory=lambda: np.zeros(0, np.int64))
     end_offsets: Array = field(default_factory=lambda: np.zeros((0, 3)))
     layout: Any = None
+    roles: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         joints, ends = len(self.names), len(self.end_parents)

@@ -73,13 +73,15 @@ class Body:
     def of(cls, motion: Motion, *, map: Mapping[str, str] | None = None) -> Self:
         """Find the body in ``motion``; ``map`` (role -> joint name) overrides what would be found.
 
+        Without it, the roles that the motion's skeleton keeps from a map file do.
         Raises ``BodyError`` with the joints and the lines to add to a map file when a needed role
         is not found.
         """
-        key = (cls, tuple(sorted((map or {}).items())))
+        chosen = map or motion.skeleton.roles
+        key = (cls, tuple(sorted(chosen.items())))
         known = _FOUND.setdefault(motion, {})
         if key not in known:
-            known[key] = cls(**_find(motion, map or {}))
+            known[key] = cls(**_find(motion, chosen))
         return known[key]
 
     def joints(self, parts: tuple[str, ...]) -> list[int]:

@@ -1,0 +1,115 @@
+"""The commands, and what happens when one of them fails."""
+
+import os
+import sys
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+from ..errors import MienError
+from . import commands
+from .report import complain
+
+HELP = {"help_option_names": ["-h", "--help"]}
+
+
+class Commands(TyperGroup):
+    """The group of commands: turns every failure into one sentence and an exit code."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Find the command; ``edit`` gets its flags only now, as they need every edit imported."""
+        name, command, rest = super().resolve_command(ctx, args)
+        if name == "edit":
+            command = typer.main.get_command(_with_edit_flags())
+            command.name = name
+        return name, command, rest
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command."""
+        try:
+            return super().invoke(ctx)
+        except BrokenPipeError:
+            _close_stdout()  # whoever reads our output has read enough
+            raise typer.Exit(0) from None
+        except (MienError, OSError) as error:
+            complain(sentence(error))
+            raise typer.Exit(2) from None
+        except KeyboardInterrupt:
+            complain("interrupted")
+            raise typer.Exit(130) from None
+        except Exception as error:
+            if isinstance(error, typer.Exit | typer.Abort) or hasattr(error, "exit_code"):
+                raise  # typer's own: help was shown, or the arguments do not fit
+            if os.environ.get("MIEN_DEBUG"):
+                raise
+            complain(sentence(error))
+            raise typer.Exit(1) from None
+
+
+def _with_edit_flags() -> typer.Typer:
+    from .edit import edit
+    from .flags import with_flags
+
+    alone = typer.Typer(add_completion=False, context_settings=HELP)
+    alone.command()(with_flags(edit))
+    return alone
+
+
+def sentence(error: BaseException) -> str:
+    """Return what went wrong in one sentence."""
+    if isinstance(error, MienError):
+        return str(error)
+    if isinstance(error, OSError):
+        return f"{error.filename}: {error.strerror}" if error.filename else str(error)
+    if isinstance(error, MemoryError):
+        return "not enough memory for this clip"
+    kind = type(error).__name__
+    return f"an error in mien itself, {kind}: {error} (set MIEN_DEBUG=1 to see where, and please report it)"
+
+
+app = typer.Typer(
+    name="mien",
+    cls=Commands,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings=HELP,
+    help="Change what a captured human motion expresses: same skeleton, feet on the floor.",
+    epilog="Start with: mien demo. Then: mien edit walk.bvh --emotion sad",
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(f"mien {version('mien')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    """Take the options that stand before the command."""
+
+
+for _command in commands.ALL:
+    app.command()(_command)
+
+
+def run() -> None:
+    """Run the command line; an interrupt while starting up ends quietly too."""
+    try:
+        app(windows_expand_args=False)  # patterns are expanded by each command, after its options
+    except KeyboardInterrupt:
+        complain("interrupted")
+        sys.exit(130)
+
+
+def _close_stdout() -> None:
+    """Send what is still buffered nowhere, so that Python does not complain while it exits."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())

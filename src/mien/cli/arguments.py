@@ -1,0 +1,29 @@
+"""Arguments that several commands share."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+Clips = Annotated[
+    list[str],
+    typer.Argument(help="Clips, folders, or patterns such as 'takes/*.bvh'.", show_default=False),
+]
+Clip = Annotated[Path, typer.Argument(help="A clip.", show_default=False)]
+Out = Annotated[Path | None, typer.Option("--out", "-o", help="The file, or the folder, to write to.")]
+Force = Annotated[bool, typer.Option("--force", "-f", help="Overwrite files that exist.")]
+DryRun = Annotated[bool, typer.Option("--dry-run", "-n", help="Say what would be done, and do nothing.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON for programs.")]
+Fps = Annotated[float | None, typer.Option(help="Frames a second, where the clip's own rate is wrong.")]
+Salvage = Annotated[bool, typer.Option("--salvage", help="Take what is whole from a damaged clip.")]
+MapFile = Annotated[
+    Path | None,
+    typer.Option("--map", help="A map file, for joints that are not found: which joint is the knee."),
+]
+
+
+def read_map(path: Path | None) -> dict[str, str]:
+    """Return the roles of a map file; none without one."""
+    from ..kinematics.roles import read_map as read
+
+    return read(path) if path else {}

@@ -1,0 +1,139 @@
+"""One flag for every parameter of every edit, made from the signatures, and the steps they mean."""
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from textwrap import shorten
+from typing import Annotated, Any
+
+import typer
+
+from ..edits.registry import EDITS, Edit, Param, Parameter
+from ..recipe import Step
+from .signature import with_parameters
+
+_JOIN = "__"  # between edit and parameter in the name that a flag has inside
+
+# The order in which edits given by flags are done; an edit that is not named follows its kind.
+ORDER = ("trim", "resample", "mirror", "path_length", "timing", "posture", "in_place", "foot_plant")
+_LAST_OF_KIND = {"time": "mirror", "pose": "posture", "repair": "foot_plant"}
+
+
+def flag_name(edit: str, parameter: str = "") -> str:
+    """Return the flag of an edit (``--in-place``) or of its parameter (``--posture-head``)."""
+    return "--" + f"{edit}_{parameter}".strip("_").replace("_", "-")
+
+
+def with_flags(function: Callable[..., None]) -> Callable[..., None]:
+    """Return ``function`` with a flag for every edit and parameter; it gets them as ``flags``.
+
+    ``flags`` is a mapping edit -> parameter -> value that holds what was given, and nothing else.
+    """
+    return with_parameters(function, [p for edit in _ordered() for p in _options(edit)], _given)
+
+
+def compose(
+    steps: tuple[Step, ...], flags: Mapping[str, Mapping[str, Any]], *, foot_plant: bool
+) -> tuple[Step, ...]:
+    """Return the steps of a recipe with those that flags mean.
+
+    A flag of an edit that the recipe has changes the recipe's own step; any other adds a step, at its
+    place in ``ORDER``. ``foot_plant`` puts the feet back at the end when a pose is edited; without it
+    no repair of the feet is left.
+    """
+    made = [replace(step, parameters={**step.parameters, **flags.get(step.edit, {})}) for step in steps]
+    for name in sorted(flags, key=_rank):
+        if all(step.edit != name for step in made):
+            _insert(made, Step(name, dict(flags[name])))
+    if not foot_plant:
+        return tuple(step for step in made if step.edit != "foot_plant")
+    if any(EDITS[step.edit].kind == "pose" for step in made) and made[-1].edit != "foot_plant":
+        _insert(made, Step("foot_plant"))
+    return tuple(made)
+
+
+def _insert(steps: list[Step], step: Step) -> None:
+    """Put a step before the first that comes later in ``ORDER``."""
+    later = [i for i, other in enumerate(steps) if _rank(other.edit) > _rank(step.edit)]
+    steps.insert(later[0] if later else len(steps), step)
+
+
+def _rank(name: str) -> int:
+    return ORDER.index(name if name in ORDER else _LAST_OF_KIND[EDITS[name].kind])
+
+
+def _ordered() -> list[Edit]:
+    return sorted(EDITS.values(), key=lambda edit: (_rank(edit.name), edit.name))
+
+
+def _options(edit: Edit) -> list[inspect.Parameter]:
+    """Return the flags of one edit; an edit that needs no values also gets a flag of its own."""
+    found = [_option(edit, p) for p in edit.parameters.values()]
+    if edit.name == "foot_plant" or any(p.about.neutral is not None for p in edit.parameters.values()):
+        return found
+    about = typer.Option(
+        flag_name(edit.name), help=edit.summary, rich_help_panel=_panel(edit), show_default=False
+    )
+    return [_keyword(edit.name, "", bool | None, about), *found]
+
+
+def _option(edit: Edit, parameter: Parameter) -> inspect.Parameter:
+    flag = flag_name(edit.name, parameter.name)
+    if parameter.kind is bool:
+        flag = f"{flag}/{flag_name('no_' + edit.name, parameter.name)}"
+    kind = parameter.kind if parameter.kind in (float, int, bool) else str
+    metavar = "|".join(parameter.choices) or None
+    about = typer.Option(
+        flag, help=describe(parameter), rich_help_panel=_panel(edit), show_default=False, metavar=metavar
+    )
+    return _keyword(edit.name, parameter.name, kind | None, about)
+
+
+def describe(parameter: Parameter) -> str:
+    """Return what a parameter does, its range, unit and default, in one line."""
+    about, default = parameter.about, parameter.default
+    shown = f"{default:g}" if type(default) in (int, float) else str(default).lower()
+    shown = ",".join(default) if isinstance(default, tuple) else shown
+    facts = [f"{_limits(about)} {about.unit}".strip(), f"default {shown or 'none'}"]
+    text = f"{about.doc} ({'; '.join(fact for fact in facts if fact)})"
+    return text.replace("[", "\\[")  # not a style for rich
+
+
+def _limits(about: Param) -> str:
+    low = "" if about.low is None else f"{about.low:g}"
+    high = "" if about.high is None else f"{about.high:g}"
+    if low and high:
+        return f"{low} to {high}"
+    return f"at least {low}" if low else f"at most {high}" if high else ""
+
+
+def _panel(edit: Edit) -> str:
+    return shorten(f"{edit.name}: {edit.summary}", 74, placeholder=" ...")
+
+
+def _keyword(edit: str, parameter: str, kind: Any, about: Any) -> inspect.Parameter:
+    name, annotation = f"{edit}{_JOIN}{parameter}", Annotated[kind, about]
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
+
+
+def _given(values: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return the flags that were given, by edit; an edit's own flag gives it no parameter."""
+    found: dict[str, dict[str, Any]] = {}
+    for key, value in values.items():
+        name, parameter = key.split(_JOIN)
+        if value is None or (not parameter and value is False):
+            continue
+        parameters = found.setdefault(name, {})
+        if parameter:
+            parameters[parameter] = _value(EDITS[name].parameters[parameter], value)
+    return found
+
+
+def _value(parameter: Parameter, value: Any) -> Any:
+    if parameter.kind is tuple:
+        return tuple(item.strip() for item in value.split(",") if item.strip())
+    if parameter.name == "pose" and str(value).endswith(".toml"):
+        from ..kinematics.poses import read_pose
+
+        return str(read_pose(value))  # a recipe holds the pose itself
+    return value

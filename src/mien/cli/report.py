@@ -1,0 +1,67 @@
+"""What commands say: data to stdout (a table or JSON), everything else to stderr."""
+
+import json
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, TypeVar
+
+import typer
+
+T = TypeVar("T")
+
+
+def complain(message: str) -> None:
+    """Say what went wrong."""
+    note(f"mien: {message}")
+
+
+def note(message: str) -> None:
+    """Say something beside the data."""
+    typer.echo(message, err=True)
+
+
+def show_json(data: Any) -> None:
+    """Print data for a program; what is not a number (no such measure) becomes null."""
+    typer.echo(json.dumps(_finite(data), indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def show_table(
+    columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: str = "", numbers: int = 1
+) -> None:
+    """Print a table for a person; columns from ``numbers`` on are right-aligned."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=title or None, title_justify="left", box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for index, column in enumerate(columns):
+        table.add_column(column, justify="right" if index >= numbers else "left", overflow="fold")
+    for row in rows:
+        table.add_row(*row)
+    terminal = sys.stdout.isatty()
+    Console(width=None if terminal else 160, highlight=False, markup=False).print(table)
+
+
+def number(value: float, digits: int = 2) -> str:
+    """Return a number as a person reads it; what could not be measured is a dash."""
+    return f"{value:.{digits}f}" if value == value else "-"
+
+
+def progress(items: Iterable[T], *, total: int, doing: str) -> Iterator[T]:
+    """Pass items on and show a bar on stderr, if it is a terminal and there is more than one item."""
+    if total < 2 or not sys.stderr.isatty():
+        yield from items
+        return
+    from rich.console import Console
+    from rich.progress import track
+
+    yield from track(items, description=doing, total=total, console=Console(stderr=True), transient=True)
+
+
+def _finite(data: Any) -> Any:
+    if isinstance(data, dict):
+        return {str(key): _finite(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [_finite(value) for value in data]
+    if isinstance(data, float) and (data != data or abs(data) == float("inf")):
+        return None
+    return data

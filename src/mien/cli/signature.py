@@ -1,0 +1,34 @@
+"""Give a command parameters that are made while the program runs."""
+
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+FLAGS = "flags"  # the parameter of a command that takes the values of the made ones
+
+
+def with_parameters(
+    function: Callable[..., None],
+    parameters: Sequence[inspect.Parameter] = (),
+    collect: Callable[[Mapping[str, Any]], Any] = dict,
+) -> Callable[..., None]:
+    """Return ``function`` with more parameters in its signature.
+
+    It gets their values, passed through ``collect``, as its parameter ``flags``.
+    """
+    names = [p.name for p in parameters]
+
+    def command(**given: Any) -> None:
+        values = {name: given.pop(name) for name in names}
+        function(**given, **{FLAGS: collect(values)})
+
+    own = [p for p in inspect.signature(function).parameters.values() if p.name != FLAGS]
+    command.__name__, command.__doc__ = function.__name__, _unwrapped(inspect.getdoc(function) or "")
+    command.__annotations__ = {p.name: p.annotation for p in (*own, *parameters)}
+    command.__signature__ = inspect.Signature([*own, *parameters])  # type: ignore[attr-defined]
+    return command
+
+
+def _unwrapped(text: str) -> str:
+    """Join the lines of each paragraph: the help is wrapped to the width of the terminal."""
+    return "\n\n".join(" ".join(paragraph.split("\n")) for paragraph in text.split("\n\n"))
