@@ -1,0 +1,164 @@
+"""A synthetic clip with what is known to be true of it, and how a pose becomes a clip."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TypedDict, Unpack
+
+import numpy as np
+
+from ..errors import MienError, unknown
+from ..kinematics.fk import to_local
+from ..motion import Motion, Skeleton
+from ..rotations import quaternion
+from ..typing import Array, Mask
+from .figure import LEG, PARENTS, SEGMENTS, STANCE, about
+from .skeletons import Rig, rig
+
+METRES = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001, "inch": 0.0254, "foot": 0.3048}
+UP = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
+FORWARD = {"y": np.array([0.0, 0.0, 1.0]), "z": np.array([0.0, -1.0, 0.0])}
+
+
+class Form(TypedDict, total=False):
+    """How a sample is written down: frames a second, skeleton, unit, up axis, heading (radians)."""
+
+    fps: float
+    skeleton: str
+    unit: str
+    up: str
+    heading: float
+
+
+@dataclass(frozen=True, eq=False)
+class Figure:
+    """The figure moving, in metres: world rotations (T, 22, 4) of its segments, place of the hips (T, 3)."""
+
+    rotations: Array
+    hips: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """A synthetic clip and the truth about it.
+
+    ``contacts`` (T, 2, 2) bool: left and right foot, heel and toe on the floor. ``angles``: joint
+    angles (T,) in radians by name. ``phases`` (T,) in cycles where the motion is periodic (right heel
+    strike 0, left 0.5). ``events``: times in seconds by name. ``facts``: single numbers in seconds,
+    radians and the clip's own unit. ``roles``: role -> joint name. ``up``, ``forward``: unit vectors,
+    where the figure faces at heading 0 turned by the heading asked for. ``leg_length`` in the clip's unit.
+    """
+
+    motion: Motion
+    contacts: Mask
+    angles: Mapping[str, Array]
+    phases: Array | None
+    events: Mapping[str, tuple[float, ...]]
+    facts: Mapping[str, float]
+    roles: Mapping[str, str]
+    up: Array
+    forward: Array
+    leg_length: float
+    metres_per_unit: float
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """What a sample function knows beside the pose; lengths in ``lengths`` are in metres."""
+
+    contacts: Mask
+    angles: Mapping[str, Array]
+    phases: Array | None = None
+    events: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    facts: Mapping[str, float] = field(default_factory=dict)
+    lengths: Mapping[str, float] = field(default_factory=dict)
+
+
+def times(seconds: float, form: Form) -> Array:
+    """Return the frame times (T,) from 0 up to and with ``seconds``."""
+    fps = form.get("fps", 60.0)
+    if not (np.isfinite(fps) and fps > 0):
+        raise MienError(f"fps must be above 0, got {fps}")
+    if not (np.isfinite(seconds) and seconds >= 0):
+        raise MienError(f"seconds must be 0 or more, got {seconds}")
+    return np.arange(int(np.floor(seconds * fps + 1e-6)) + 1) / fps
+
+
+def sample(name: str, figure: Figure, truth: Truth, **form: Unpack[Form]) -> Sample:
+    """Write the moving figure down on a skeleton, in a unit, up axis and heading."""
+    unit, up = form.get("unit", "cm"), form.get("up", "y")
+    if unit not in METRES:
+        raise MienError(unknown("unit", unit, METRES))
+    if up not in UP:
+        raise MienError(unknown("up axis", up, UP))
+    chosen, heading, scale = (
+        rig(form.get("skeleton", "standard22")),
+        form.get("heading", 0.0),
+        1.0 / METRES[unit],
+    )
+    upright = about(0, np.array(0.5 * np.pi if up == "z" else 0.0))
+    motion = Motion(
+        *_expressed(figure, chosen, scale, upright, heading),
+        frame_time=1.0 / form.get("fps", 60.0),
+        name=name,
+    )
+    return Sample(
+        motion=motion,
+        contacts=truth.contacts,
+        angles=truth.angles,
+        phases=truth.phases,
+        events=truth.events,
+        facts={**truth.facts, **{k: v * scale for k, v in truth.lengths.items()}},
+        roles=chosen.roles,
+        up=UP[up],
+        forward=quaternion.rotate(quaternion.exp(heading * UP[up]), FORWARD[up]),
+        leg_length=LEG * scale,
+        metres_per_unit=METRES[unit],
+    )
+
+
+def positions(figure: Figure) -> Array:
+    """Return the joint centres of the figure (T, 22, 3) in metres."""
+    out = np.empty((*figure.rotations.shape[:2], 3))
+    out[:, 0] = figure.hips
+    for j, p in enumerate(PARENTS[1:], start=1):
+        out[:, j] = out[:, p] + quaternion.rotate(
+            figure.rotations[:, p], STANCE[SEGMENTS[j]] - STANCE[SEGMENTS[p]]
+        )
+    return out
+
+
+def _expressed(
+    figure: Figure, chosen: Rig, scale: float, upright: Array, heading: float
+) -> tuple[Skeleton, Array, Array]:
+    """Return skeleton, local rotations and translations.
+
+    With ``U`` from y-up to the clip's up axis, ``H`` the heading, ``Q`` the segment's rotation and ``B``
+    the joint's frame in it, the joint's world rotation is ``U H Q B U^-1``: where ``Q`` undoes ``B``
+    the skeleton is in its rest pose, all axes parallel to the world's.
+    """
+    down = quaternion.conjugate(upright)
+    frames = quaternion.multiply(chosen.frames, down)
+    before = quaternion.multiply(upright, about(1, np.array(heading)))
+    still = quaternion.IDENTITY
+    segments = np.concatenate([figure.rotations, np.broadcast_to(still, (len(figure.hips), 1, 4))], axis=1)
+    world = quaternion.multiply(before, quaternion.multiply(segments[:, chosen.segments], frames))
+    grounded = chosen.segments < 0
+    world[:, grounded] = still
+    frames = np.where(grounded[:, None], quaternion.conjugate(upright), frames)
+    skeleton = _skeleton(chosen, frames, scale)
+    hips = scale * quaternion.rotate(before, figure.hips)
+    rotations, _ = to_local(world, np.zeros((*world.shape[:2], 3)), chosen.parents)
+    translations = np.broadcast_to(skeleton.offsets, (*world.shape[:2], 3)).copy()
+    translations[:, list(chosen.names).index(chosen.roles["hips"])] = hips
+    return skeleton, quaternion.continuous(rotations), translations
+
+
+def _skeleton(chosen: Rig, frames: Array, scale: float) -> Skeleton:
+    bones = chosen.points - np.where(
+        chosen.parents[:, None] >= 0, chosen.points[chosen.parents], chosen.points
+    )
+    into = quaternion.conjugate(frames)
+    offsets = scale * quaternion.rotate(into[np.maximum(chosen.parents, 0)], bones)
+    tips = chosen.end_points - chosen.points[chosen.end_parents]
+    ends = scale * quaternion.rotate(into[chosen.end_parents], tips)
+    return Skeleton(chosen.names, chosen.parents, offsets, chosen.end_parents, ends)
