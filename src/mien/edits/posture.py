@@ -1,0 +1,150 @@
+"""Hold the body differently: a constant change of posture on every frame.
+
+To the motion: the head sinks, the trunk bends, elbows go out, the stance widens, while the movement
+itself goes on. To the viewer: head and trunk down read as sad or tired, elbows and feet apart as
+strong, arms and feet drawn in as weak, afraid or feminine (Förger 2012, chapter 5). Where an arm or leg
+is far from where it hangs, as in a reach or a kick, its change fades out, so that the aim is kept.
+
+Feet move with the legs and hips: let ``foot_plant`` follow.
+"""
+
+from collections.abc import Mapping
+from math import cos, radians, sin
+from typing import Annotated
+
+import numpy as np
+
+from ..kinematics.body import SIDES, Body
+from ..kinematics.fk import world
+from ..kinematics.heading import heading_rotation, hips_frame
+from ..kinematics.poses import Pose, named_pose, neutral_world
+from ..kinematics.posing import Method, add_pose
+from ..motion import Motion
+from ..rotations import quaternion
+from ..typing import Array
+from .registry import Param, edit
+
+FADE_START, FADE_END = 0.6, 1.1  # lengths of the limb that its end is away from where it hangs
+FADE_CUTOFF = 3.0  # Hz
+
+
+def _degrees(doc: str, low: float, high: float) -> Param:
+    return Param(doc, low, high, "degrees", neutral=0.0)
+
+
+@edit(
+    paper="Förger (2012), section 3.4.2; angles and fade-out limits: METHODS A3",
+    equation="enc'(t) = enc(t) + s w(t) (enc(P) - enc(N)),  w = 1 - smoothstep(0.6 L, 1.1 L, |e(t) - e_N|)",
+    deviations="the default method adds the change joint by joint as anatomy has it (kinematics/posing.py); "
+    "`additive` is the thesis's. Angles and fade-out limits were not published.",
+)
+def posture(
+    motion: Motion,
+    *,
+    head: Annotated[float, _degrees("head down (+) or up (-), neck included", -60, 60)] = 0.0,
+    trunk: Annotated[
+        float, _degrees("trunk bent forward (+) or back (-); arms go on hanging", -45, 60)
+    ] = 0.0,
+    lean: Annotated[
+        float, _degrees("whole body leaning forward (+) or back (-) at the ankles", -20, 20)
+    ] = 0.0,
+    shoulders: Annotated[float, _degrees("shoulders raised (+) or lowered (-)", -20, 30)] = 0.0,
+    arms: Annotated[float, _degrees("upper arms away from the body (+) or closer (-)", -30, 60)] = 0.0,
+    arms_forward: Annotated[float, _degrees("upper arms to the front (+) or back (-)", -60, 90)] = 0.0,
+    elbows: Annotated[float, _degrees("elbows more bent (+) or straighter (-)", -90, 90)] = 0.0,
+    legs: Annotated[float, _degrees("feet apart (+) or closer (-), as an angle at each hip", -15, 30)] = 0.0,
+    hips_height: Annotated[
+        float, Param("hips higher (+) or lower (-)", -0.5, 0.1, "leg lengths", neutral=0.0)
+    ] = 0.0,
+    pose: Annotated[
+        str, Param("a named pose (head_down, elbows_out, arms_legs_in) or one in a line")
+    ] = "none",
+    amount: Annotated[float, Param("how much of the pose; -1 is its reverse", -2, 2, neutral=0.0)] = 1.0,
+    method: Annotated[Method, Param("how the change is added to each joint")] = "anatomical",
+    fade: Annotated[bool, Param("fade out on limbs that are far from where they hang")] = True,
+) -> Motion:
+    """Hold head, trunk, arms and legs differently, through the whole clip.
+
+    Angles in degrees are added to every frame, ``hips_height`` in leg lengths to the height of the
+    hips. ``pose`` is the name of a pose in ``kinematics.poses.POSES`` or the line that
+    ``str(Pose)`` writes, for example of ``pose_between(neutral, sad)`` from two captured stills.
+    METHOD_REASON
+    """
+    named, captured = named_pose(pose)
+    values = {
+        "head": head,
+        "trunk": trunk,
+        "lean": lean,
+        "shoulders": shoulders,
+        "arms": arms,
+        "arms_forward": arms_forward,
+        "elbows": elbows,
+        "legs": legs,
+    }
+    whole = _pose({name: value + amount * named.get(name, 0.0) for name, value in values.items()})
+    whole = whole + captured * amount
+    if not hips_height and not any(any(turn) for turn in whole.turns.values()):
+        return motion
+    body = Body.of(motion)
+    weights = _fade_out(motion, body) if fade else {}
+    rotations = add_pose(motion, body, whole, weights=weights, method=method)
+    translations = motion.translations
+    if lean or hips_height:
+        translations = _shift_hips(motion, body, lean, hips_height)
+    return motion.with_(rotations=rotations, translations=translations)
+
+
+def _pose(values: Mapping[str, float]) -> Pose:
+    """Return the turns of each segment for the values of the parameters, both sides alike."""
+    head, trunk, lean = values["head"], values["trunk"], values["lean"]
+    turns = {"hips": (lean, 0.0, 0.0), "trunk": (trunk, 0.0, 0.0)}
+    turns |= {"neck": (0.5 * head, 0.0, 0.0), "head": (0.5 * head, 0.0, 0.0)}
+    for side in SIDES:
+        out = 1.0 if side == "left" else -1.0
+        turns[f"{side}_collar"] = (0.0, 0.0, out * values["shoulders"])
+        # What trunk and shoulders do above them is taken back, as arms hang by their weight.
+        forward = values["arms_forward"] + trunk + lean
+        turns[f"{side}_shoulder"] = (-forward, 0.0, out * (values["arms"] - values["shoulders"]))
+        turns[f"{side}_elbow"] = (-values["elbows"], 0.0, 0.0)
+        turns[f"{side}_hip"] = (0.0, 0.0, out * values["legs"])
+        turns[f"{side}_ankle"] = (-lean, 0.0, -out * values["legs"])  # soles stay level
+    return Pose(turns)
+
+
+def _fade_out(motion: Motion, body: Body) -> dict[str, Array]:
+    """Return limb -> how much of the change shows (T,): less the further its end is from hanging."""
+    hanging = neutral_world(motion, body)[1]
+    positions = world(motion)[1]
+    back = quaternion.conjugate(heading_rotation(positions, body))
+    hips = body.roles["hips"]
+    weights = {}
+    for limb, joints in body.limbs.items():
+        chain = [j for j in joints if j != body.roles.get(limb.replace("arm", "collar"))]
+        chain = [j for j in chain if j != body.roles.get(limb.replace("leg", "toe"))]
+        if not limb.endswith(("arm", "leg")) or len(chain) < 2:
+            continue
+        length = np.linalg.norm(np.diff(hanging[chain], axis=0), axis=-1).sum()
+        end = quaternion.rotate(back, positions[:, chain[-1]] - positions[:, hips])
+        away = np.linalg.norm(end - (hanging[chain[-1]] - hanging[hips]), axis=-1) / length
+        x = np.clip((away - FADE_START) / (FADE_END - FADE_START), 0.0, 1.0)
+        weights[limb] = _low_pass(1.0 - x * x * (3.0 - 2.0 * x), motion.fps)
+    return weights
+
+
+def _low_pass(values: Array, fps: float) -> Array:
+    """Return ``values`` (T,) without what is faster than the cut-off: a Gaussian, so no overshoot."""
+    from scipy.ndimage import gaussian_filter1d
+
+    sigma = np.sqrt(0.5 * np.log(2.0)) / (np.pi * FADE_CUTOFF) * fps  # half amplitude at the cut-off
+    smooth: Array = gaussian_filter1d(values, sigma, mode="nearest", truncate=5.0)
+    return smooth
+
+
+def _shift_hips(motion: Motion, body: Body, lean: float, height: float) -> Array:
+    """Return the translations with the hips moved: round the ankles by ``lean``, and up by ``height``."""
+    angle = radians(lean)
+    shift = sin(angle) * body.forward + (cos(angle) - 1.0 + height) * body.up
+    translations = np.array(motion.translations)
+    inner = quaternion.rotate(hips_frame(motion, body), body.leg_length * shift)
+    translations[:, body.roles["hips"]] += inner
+    return translations
