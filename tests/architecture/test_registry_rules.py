@@ -1,5 +1,6 @@
 """One registry of edits: every file in edits/ is one edit, with a test, a page and a line in METHODS.md."""
 
+from math import inf
 from pathlib import Path
 
 import pytest
@@ -35,7 +36,7 @@ def test_an_edit_has_a_test_file_of_its_name(name: str) -> None:
 @pytest.mark.parametrize("name", sorted(EDITS))
 def test_what_an_edit_says_of_itself(name: str) -> None:
     edit = EDITS[name]
-    assert edit.paper, f"{name}: @edit(paper=...) says where the method comes from (or that it is mien's own)"
+    assert edit.paper or edit.equation, f"{name}: @edit says the paper or, where there is none, the equation"
     assert edit.summary.endswith("."), f"{name}: the docstring starts with one sentence"
     assert edit.kind in ("pose", "time", "repair")
 
@@ -45,13 +46,16 @@ def test_parameters_describe_themselves(name: str) -> None:
     for parameter in EDITS[name].parameters.values():
         where, about = f"{name}: {parameter.name}", parameter.about
         assert about.doc, f"{where}: Param needs a one-line description"
-        if parameter.kind in (float, int):
-            assert about.low is not None, f"{where}: give the lowest value that makes sense (Param low=)"
-            assert about.high is not None, f"{where}: give the highest value that makes sense (Param high=)"
-            for value in (parameter.default, about.neutral):
-                assert value is None or about.low <= value <= about.high, f"{where}: {value} is out of range"
-        else:
+        if parameter.kind not in (float, int):
             assert about.neutral is None, f"{where}: only numbers follow strength"
+            continue
+        assert about.low is not None, f"{where}: give the lowest value that makes sense (Param low=)"
+        high = inf if about.high is None else about.high
+        assert about.neutral is None or high < inf, (
+            f"{where}: follows strength, so give its highest value (high=)"
+        )
+        for value in (parameter.default, about.neutral):
+            assert value is None or about.low <= value <= high, f"{where}: {value} is out of range"
 
 
 @pytest.mark.parametrize("name", sorted(EDITS))
