@@ -16,9 +16,9 @@ from .registry import Param, edit
 def trim(
     motion: Motion,
     *,
-    start: Annotated[float, Param("first moment kept", 0.0, unit="seconds")] = 0.0,
+    start: Annotated[float, Param("first moment kept", 0.0, 1e6, "seconds")] = 0.0,
     end: Annotated[
-        float | None, Param("last moment kept; none is the end of the clip", 0.0, unit="seconds")
+        float | None, Param("last moment kept; none is the end of the clip", 0.0, 1e6, "seconds")
     ] = None,
 ) -> Motion:
     """Keep the frames from ``start`` to ``end`` (seconds, both included); the rest is dropped.
