@@ -18,8 +18,8 @@ import numpy as np
 from ..errors import RecipeError
 from ..kinematics.body import Body
 from ..kinematics.bones import main_bones
-from ..kinematics.heading import hips_frame
-from ..kinematics.loops import loop_length
+from ..kinematics.heading import heading_free
+from ..kinematics.loops import Boundary, period
 from ..motion import Motion
 from ..rotations import directions, quaternion
 from ..signal import multiresolution
@@ -52,11 +52,11 @@ def path_length(
     edge_low: Annotated[float, Param("border of low and mid, mode edges", 0.1, 50.0, unit="Hz")] = 1.0,
     edge_high: Annotated[float, Param("border of mid and high, mode edges", 0.2, 200.0, unit="Hz")] = 12.5,
     boundary: Annotated[
-        Literal["auto", "hold", "wrap"],
+        Boundary,
         Param("beyond the ends: hold the pose, go round as a loop, or go round if it is a loop"),
     ] = "auto",
     orthogonalise: Annotated[
-        Literal["gram-schmidt", "svd"],
+        directions.Orthogonalise,
         Param("keep each bone's direction and let its twist give way, or share the error"),
     ] = "gram-schmidt",
 ) -> Motion:
@@ -76,28 +76,19 @@ def path_length(
         return motion
     body = Body.of(motion)
     hips = body.roles["hips"]
-    frame = hips_frame(motion, body)
-    rotations = np.array(motion.rotations)
-    rotations[:, hips] = quaternion.multiply(quaternion.conjugate(frame), rotations[:, hips])
     joints = motion.skeleton.descendants(hips)
-    period = _period(rotations[:, joints], boundary)
-    change = _filter(mode, motion.fps, (low, mid, high), (edge_low, edge_high), period > 0)
+    frames = period(motion, body, boundary)
+    change = _filter(mode, motion.fps, (low, mid, high), (edge_low, edge_high), frames > 0)
+    rotations, frame = heading_free(motion, body)
     u, v = directions.axes(main_bones(motion.skeleton))
     for some in _chunks(joints, len(motion)):
         before = rotations[:, some]
-        codes = _round(change, directions.encode(before, u[some], v[some]), period)
+        codes = _round(change, directions.encode(before, u[some], v[some]), frames)
         rotations[:, some] = directions.decode(
             codes, u[some], v[some], orthogonalise=orthogonalise, fallback=before
         )
     rotations[:, hips] = quaternion.continuous(quaternion.multiply(frame, rotations[:, hips]))
     return motion.with_(rotations=rotations)
-
-
-def _period(rotations: Array, boundary: str) -> int:
-    """Return the frames of one round, 0 to hold the ends."""
-    if boundary == "hold":
-        return 0
-    return loop_length(rotations) or (len(rotations) if boundary == "wrap" else 0)
 
 
 def _filter(
@@ -114,13 +105,13 @@ def _filter(
     return partial(multiresolution.regain, fps=fps, response=response, support=support, wrap=wrap)
 
 
-def _round(change: Callable[[Array], Array], codes: Array, period: int) -> Array:
+def _round(change: Callable[[Array], Array], codes: Array, frames: int) -> Array:
     """Filter one round; a last frame that repeats the first changes as the first does."""
-    if period in (0, len(codes)):
+    if frames in (0, len(codes)):
         return change(codes)
     out = np.empty_like(codes)
-    out[:period] = change(codes[:period])
-    out[period:] = out[:1] + codes[period:] - codes[:1]
+    out[:frames] = change(codes[:frames])
+    out[frames:] = out[:1] + codes[frames:] - codes[:1]
     return out
 
 

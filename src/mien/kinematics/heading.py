@@ -39,6 +39,14 @@ def hips_frame(motion: Motion, body: Body) -> Array:
     return quaternion.multiply(quaternion.conjugate(turned[:, joints.index(above)]), frame)
 
 
+def heading_free(motion: Motion, body: Body) -> tuple[Array, Array]:
+    """Return the local rotations (T, J, 4) with the hips' free of the heading, and the ``hips_frame``."""
+    frame, hips = hips_frame(motion, body), body.roles["hips"]
+    rotations = np.array(motion.rotations)
+    rotations[:, hips] = quaternion.multiply(quaternion.conjugate(frame), rotations[:, hips])
+    return rotations, frame
+
+
 def _yaw(side: Array, body: Body) -> Array:
     facing = np.cross(side, body.up)
     return np.unwrap(np.arctan2(facing @ np.cross(body.up, body.forward), facing @ body.forward))
