@@ -28,6 +28,7 @@ from ..typing import Array, Mask
 from .registry import Param, edit
 
 SIDES = ("left", "right")
+CLEARANCE = 0.7  # the share of the original's swing height that is kept
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +77,7 @@ def foot_plant(
     after = _shifted(after, -drop[:, None] * body.up, body)
     rotations = np.array(after.motion.rotations)
     for foot, goal in enumerate(goals):
-        _bend_leg(rotations, before, after, goal, body, foot)
+        _bend_leg(rotations, before, after, goal, contacts.feet[:, foot], body, foot)
     return after.motion.with_(rotations=quaternion.continuous(rotations))
 
 
@@ -162,24 +163,25 @@ def _goal(before: _Pose, after: _Pose, contacts: Contacts, body: Body, foot: int
     turn = quaternion.multiply(turn, after.rotations[:, ankle])
     stands = curve_gaps(planted.astype(float), planted, reach=reach)
     sunk = _sunk(before, after, here + offset, turn, body, foot)
-    lift = envelope(np.where(planted, 0.0, sunk), reach=round(0.08 / dt)) * _clear(planted, dt)
+    lift = envelope(np.where(planted, 0.0, sunk), reach=round(0.12 / dt)) * _clear(planted, dt, 0.06)
     return _Goal(here + offset + lift[:, None] * body.up, turn, stands)
 
 
-def _clear(planted: Mask, frame_time: float) -> Array:
-    """Return 0 while planted, growing to 1 within 0.06 s of swing (T,)."""
+def _clear(planted: Mask, frame_time: float, seconds: float) -> Array:
+    """Return 0 while planted, growing to 1 within some seconds of swing (T,)."""
     from scipy.ndimage import distance_transform_edt
 
     if not planted.any():
         return np.ones(len(planted))
-    return np.clip(distance_transform_edt(~planted) * frame_time / 0.06, 0, 1)
+    share = np.clip(distance_transform_edt(~planted) * frame_time / seconds, 0, 1)
+    return np.asarray(share * share * (3 - 2 * share))
 
 
 def _sunk(before: _Pose, after: _Pose, ankle: Array, turn: Array, body: Body, foot: int) -> Array:
-    """Return how far (T,) the foot is below the lowest level that the original's same foot reaches.
+    """Return how far (T,) the foot is below where it must be.
 
-    Looks at the ankle and at every joint and end site below it, each against its own lowest level; a
-    level never below the floor by more than the original itself goes.
+    Looks at the ankle and at every joint and end site below it. Each must keep ``CLEARANCE`` of the
+    height that it has in the original above its own lowest level, so a swinging foot does not scrape.
     """
     skeleton = after.motion.skeleton
     root = body.roles[f"{SIDES[foot]}_ankle"]
@@ -196,8 +198,9 @@ def _sunk(before: _Pose, after: _Pose, ankle: Array, turn: Array, body: Body, fo
     lowest = np.concatenate([start, points], axis=1) @ body.up
     reached = ankle[:, None] + quaternion.rotate(turn[:, None], rigid(after))
     height = np.concatenate([ankle[:, None], reached], axis=1) @ body.up
-    floor = np.minimum(lowest, np.percentile(lowest, 2, axis=0))
-    return np.maximum((floor - height).max(axis=1), 0.0)
+    floor = np.percentile(lowest, 2, axis=0)
+    needed = np.minimum(lowest, floor) + CLEARANCE * np.maximum(lowest - floor, 0.0)
+    return np.maximum((needed - height).max(axis=1), 0.0)
 
 
 def _drop(before: _Pose, after: _Pose, goals: list[_Goal], contacts: Contacts, body: Body) -> Array:
@@ -207,9 +210,12 @@ def _drop(before: _Pose, after: _Pose, goals: list[_Goal], contacts: Contacts, b
     for foot, goal in enumerate(goals):
         hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
         length = _bones(after, hip, knee) + _bones(after, knee, ankle)
-        stretched = np.linalg.norm(before.positions[:, ankle] - before.positions[:, hip], axis=1) / length
-        reach = length * np.clip(stretched, 0.995, 1.0)
         line = after.positions[:, hip] - goal.ankle
+        source = before.positions[:, hip] - before.positions[:, ankle]
+        # A leg that the edit hardly moves may be as straight as it was; the others keep a little bend.
+        moved = np.linalg.norm(line - source, axis=1) / (0.02 * body.leg_length)
+        straight = np.clip(np.linalg.norm(source, axis=1) / length, 0.995, 1.0)
+        reach = length * (0.995 + (straight - 0.995) * np.exp(-(moved**2)))
         up = line @ body.up
         across = np.linalg.norm(line - up[:, None] * body.up, axis=1)
         standing = np.sqrt(np.maximum(reach**2 - across**2, (0.3 * reach) ** 2))
@@ -223,7 +229,28 @@ def _bones(pose: _Pose, a: int, b: int) -> Array:
     return np.linalg.norm(pose.positions[:, b] - pose.positions[:, a], axis=1)
 
 
-def _bend_leg(rotations: Array, before: _Pose, after: _Pose, goal: _Goal, body: Body, foot: int) -> None:
+def _reachable(before: _Pose, after: _Pose, goal: _Goal, planted: Mask, body: Body, foot: int) -> Array:
+    """Return the ankle's goal (T, 3), drawn in softly where a swinging leg would have to over-stretch.
+
+    Up to a stretch of 0.97 (or the edited pose's own) nothing changes; from there it tends to 0.995
+    without reaching it. At a contact the softness is gone: planted feet are met exactly.
+    """
+    hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
+    length = _bones(after, hip, knee) + _bones(after, knee, ankle)
+    own = _bones(after, hip, ankle) / length
+    limit = np.clip(own, 0.995, 1.0)
+    soft = np.maximum(0.025 * _clear(planted, after.motion.frame_time, 0.1), 1e-9)
+    line = goal.ankle - after.positions[:, hip]
+    stretch = np.linalg.norm(line, axis=1) / length
+    knee_point = np.maximum(limit - soft, np.minimum(own, limit - 1e-9))
+    over = np.maximum(stretch - knee_point, 0.0) / (limit - knee_point)
+    drawn = np.where(over > 0, knee_point + (limit - knee_point) * -np.expm1(-over), stretch)
+    return after.positions[:, hip] + line * np.where(planted, 1.0, drawn / stretch)[:, None]
+
+
+def _bend_leg(
+    rotations: Array, before: _Pose, after: _Pose, goal: _Goal, planted: Mask, body: Body, foot: int
+) -> None:
     """In place: bend one leg so that its ankle and foot reach the goal; the toes stand as in the original."""
     hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
     leg, parents = body.leg_length, after.motion.skeleton.parents
@@ -235,7 +262,7 @@ def _bend_leg(rotations: Array, before: _Pose, after: _Pose, goal: _Goal, body: 
         after.positions[:, hip],
         after.positions[:, knee],
         there,
-        goal.ankle,
+        _reachable(before, after, goal, planted, body, foot),
         quaternion.rotate(after.rotations[:, hip], _hinge(before, body, foot)),
     )
     moved = np.array(after.rotations)

@@ -21,30 +21,48 @@ def two_bone(root: Array, middle: Array, tip: Array, target: Array, hinge: Array
     reach = np.clip(_length(target - root), np.abs(upper - lower) * (1 + 1e-9), (upper + lower) * (1 - 1e-12))
     wanted = np.arccos(np.clip((upper**2 + lower**2 - reach**2) / (2 * upper * lower), -1, 1))
     bend = np.zeros((len(root), 4)) + quaternion.IDENTITY
-    for _ in range(3):  # the axis near full extension is not quite square to the bones: go on from there
+    for step in range(4):  # the first turn may not be square to the bones: go on from where it led
         here = middle + quaternion.rotate(bend, tip - middle)
-        angle, axis = _bend(root - middle, here - middle, hinge)
+        angle, axis = _bend(root - middle, here - middle, hinge, trusting=step > 0)
         bend = quaternion.multiply(quaternion.exp((wanted - angle)[:, None] * axis), bend)
     here = middle + quaternion.rotate(bend, tip - middle)
     aim = quaternion.between(here - root, target - root)
     return aim, quaternion.multiply(aim, bend)
 
 
-def _bend(to_root: Array, to_tip: Array, hinge: Array) -> tuple[Array, Array]:
-    """Return the inner angle (T,) of the joint, beyond pi when over-stretched, and its axis (T, 3)."""
+def _bend(to_root: Array, to_tip: Array, hinge: Array, *, trusting: bool) -> tuple[Array, Array]:
+    """Return the inner angle (T,) of the joint, beyond pi when over-stretched, and its axis (T, 3).
+
+    The axis is the normal of the pose's own plane, as far as that is clear: near full extension, and
+    (unless ``trusting``) in a joint bent sideways, the hinge takes over without a jump.
+    """
     normal = np.cross(to_root, to_tip)
-    sine = _length(normal) / np.maximum(_length(to_root) * _length(to_tip), 1e-300)
-    line = to_tip - to_root
-    square = hinge - (np.einsum("ti,ti->t", hinge, line) / np.einsum("ti,ti->t", line, line))[:, None] * line
-    square /= np.maximum(_length(square), 1e-300)[:, None]
-    side = np.where(np.einsum("ti,ti->t", normal, square) < 0, -1.0, 1.0)
-    share = np.clip((sine - 0.05) / 0.15, 0, 1)
-    share = share * share * (3 - 2 * share)
-    plane = normal * (side / np.maximum(_length(normal), 1e-300))[:, None]
-    axis = share[:, None] * plane + (1 - share)[:, None] * square
-    axis /= np.maximum(_length(axis), 1e-300)[:, None]
-    angle = np.arctan2(_length(normal), np.einsum("ti,ti->t", to_root, to_tip))
-    return np.where(side < 0, 2 * np.pi - angle, angle), axis
+    size = _length(normal)
+    sine = size / np.maximum(_length(to_root) * _length(to_tip), 1e-300)
+    square = _unit(hinge - _along(hinge, to_tip - to_root))
+    plane = normal / np.maximum(size, 1e-300)[:, None]
+    aligned = np.einsum("ti,ti->t", plane, square)
+    side = np.where(aligned < 0, -1.0, 1.0)
+    share = _ramp(sine, 0.02, 0.1) if trusting else _ramp(sine, 0.05, 0.2) * _ramp(np.abs(aligned), 0.3, 0.8)
+    axis = _unit((share * side)[:, None] * plane + (1 - share)[:, None] * square)
+    across = np.einsum("ti,ti->t", normal, axis)
+    flat = np.einsum("ti,ti->t", to_root - _along(to_root, axis), to_tip - _along(to_tip, axis))
+    return np.arctan2(across, flat) % (2 * np.pi), axis
+
+
+def _along(v: Array, line: Array) -> Array:
+    """Return the part of ``v`` (T, 3) along ``line`` (T, 3)."""
+    share = np.einsum("ti,ti->t", v, line) / np.maximum(np.einsum("ti,ti->t", line, line), 1e-300)
+    return share[:, None] * line
+
+
+def _ramp(x: Array, low: float, high: float) -> Array:
+    s = np.clip((x - low) / (high - low), 0, 1)
+    return s * s * (3 - 2 * s)
+
+
+def _unit(v: Array) -> Array:
+    return v / np.maximum(_length(v), 1e-300)[:, None]
 
 
 def _length(v: Array) -> Array:
