@@ -20,7 +20,7 @@ class Format(Protocol):
     """What a format's module must offer."""
 
     def parse(self, data: bytes, where: str, *, fps: float | None, salvage: bool) -> Motion:
-        """Make a motion of a file's bytes; ``where`` names the file in errors."""
+        """Make a motion of a file's bytes; ``where`` is the file's name, for errors and the motion's name."""
         ...
 
     def render(self, motion: Motion) -> bytes:
@@ -48,9 +48,7 @@ def load(path: str | PathLike[str], *, fps: float | None = None, salvage: bool =
     if fps is not None and not 0 < fps < float("inf"):
         raise MienError(f"fps must be above 0, got {fps}")
     path = Path(path)
-    module = _module(path)
-    motion = module.parse(files.read(path), path.name, fps=fps, salvage=salvage)
-    return motion.with_(name=path.stem)
+    return _module(path).parse(files.read(path), path.name, fps=fps, salvage=salvage)
 
 
 def save(motion: Motion, path: str | PathLike[str], *, force: bool = False) -> None:

@@ -6,11 +6,13 @@ is refused with file and line, or with ``salvage`` cut away.
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 from ..errors import FormatError
 from ..motion import Motion, Skeleton
 from ..typing import Array
 from .bvh_channels import BvhSource, to_motion, to_values
+from .bvh_digits import write_rows
 from .bvh_header import (
     POSITIONS,
     BvhLayout,
@@ -19,7 +21,7 @@ from .bvh_header import (
     read_hierarchy,
     write_hierarchy,
 )
-from .bvh_numbers import read_rows, write_rows
+from .bvh_numbers import read_rows
 
 _MOTION = re.compile(rb"(?:\A|[\r\n}])[ \t]*(MOTION)(?=\s|\Z)", re.IGNORECASE)
 _COUNT = re.compile(rb"\s*Frames[\s:]*([^\s:]+)", re.IGNORECASE)
@@ -38,6 +40,7 @@ def parse(data: bytes, where: str, *, fps: float | None = None, salvage: bool = 
         translations=translations,
         frame_time=1.0 / fps if fps else layout.frame_time,
         source=BvhSource(layout.channels, values, rotations, translations),
+        name=Path(where).stem,
     )
 
 
@@ -45,7 +48,9 @@ def render(motion: Motion) -> bytes:
     """Return the bytes of the BVH file that holds ``motion``."""
     layout = _layout(motion)
     values = to_values(motion, layout.channels, decimals=max(layout.decimals, 6))
-    return _stamp(layout, len(motion), motion.frame_time) + write_rows(values, layout.newline)
+    return _stamp(layout, len(motion), motion.frame_time) + write_rows(
+        values, layout.newline, decimals=layout.decimals
+    )
 
 
 def _read_header(
@@ -117,7 +122,7 @@ def _show(text: bytes) -> str:
 
 def _read_values(data: bytes, where: str, layout: BvhLayout, declared: int, *, salvage: bool) -> Array:
     body = data[len(layout.header) :]
-    values, problem = read_rows(body, layout.width)
+    values, problem = read_rows(body, declared, layout.width)
     frames = len(values)
     keep = f"use --salvage to keep the first {frames} frames" if frames else "no frame is whole"
     if problem and (not salvage or not frames):

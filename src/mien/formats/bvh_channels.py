@@ -16,6 +16,8 @@ from ..rotations.euler import from_euler, to_euler
 from ..typing import Array, Integers, Mask
 from .bvh_header import POSITIONS
 
+_BLOCK = 1024  # frames at a time, so that the work stays in the cache
+
 
 @dataclass(frozen=True, eq=False)
 class BvhSource:
@@ -70,15 +72,23 @@ def to_motion(
 ) -> tuple[Array, Array]:
     """Return rotations ``(T, J, 4)`` and translations ``(T, J, 3)`` of rows ``values`` (T, C)."""
     where = columns(channels)
-    rotations = np.zeros((len(values), len(skeleton), 4))
-    for group in where.turns:
-        rotations[:, group.joints] = from_euler(np.radians(values[:, group.columns]), group.order)
-    translations = np.broadcast_to(skeleton.offsets, (len(values), len(skeleton), 3))
-    if len(where.moves):
-        translations = translations.copy()
-        joints, axes, taken = where.moves.T
-        translations[:, joints, axes] = values[:, taken]
+    rotations = np.empty((len(values), len(skeleton), 4))
+    for start in range(0, len(values), _BLOCK):
+        block = slice(start, start + _BLOCK)
+        for group in where.turns:
+            angles = np.radians(values[block][:, group.columns])
+            rotations[block, _range(group.joints)] = from_euler(angles, group.order)
+    translations = np.empty((len(values), len(skeleton), 3))
+    translations[:] = skeleton.offsets
+    joints, axes, taken = where.moves.T
+    translations[:, joints, axes] = values[:, taken]
     return quaternion.continuous(rotations), translations
+
+
+def _range(indices: Integers) -> Integers | slice:
+    """Return the indices as a slice where they follow one another: NumPy copies that much faster."""
+    first, last = int(indices[0]), int(indices[-1]) + 1
+    return slice(first, last) if last - first == len(indices) else indices
 
 
 def to_values(motion: Motion, channels: tuple[tuple[str, ...], ...], *, decimals: int) -> Array:

@@ -1,5 +1,11 @@
-"""The rows of numbers in a BVH file: text to array, and back, at the speed of a C reader."""
+"""The rows of numbers in a BVH file, text to array: quickly when whole, line by line when not.
 
+Whole files go through SciPy's Matrix Market reader (C++, correctly rounded), five times faster than
+``float``. It ignores what follows a number on its line, so the text is checked first; whatever is not
+plainly regular is left to the careful reader, which says what is wrong and where.
+"""
+
+import io
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,7 +13,9 @@ import numpy as np
 from ..typing import Array
 from .bvh_header import number
 
-DIGITS = b"0123456789"
+_DIGITS = b"0123456789"
+_PLAIN = bytes.maketrans(b"E+", b"e-")
+_SHAPES = bytes.maketrans(b"123456789E+ ", b"000000000e-\n")
 
 
 @dataclass(frozen=True)
@@ -18,11 +26,78 @@ class Problem:
     message: str
 
 
-def read_rows(body: bytes, width: int) -> tuple[Array, Problem | None]:
-    """Return the frames ``(T, width)`` up to the first problem, and that problem.
+def read_rows(body: bytes, frames: int, width: int) -> tuple[Array, Problem | None]:
+    """Return the whole frames ``(T, width)`` before the first problem, and that problem.
 
-    A frame may be wrapped over several lines, but the next begins on a new line.
+    ``frames`` is how many are promised: a hint, for which nothing is reserved.
     """
+    values = _read_whole(body, frames, width)
+    return (values, None) if values is not None else _read_careful(body, width)
+
+
+def _read_whole(body: bytes, frames: int, width: int) -> Array | None:
+    """Return ``frames`` rows of finite numbers, or None if ``body`` is not plainly that."""
+    if 2 * frames * width > len(body) + 1:
+        return None
+    marks = body.translate(_PLAIN, _DIGITS)
+    if not _regular(marks, frames, width):
+        body = _tidy(body)
+        marks = body.translate(_PLAIN, _DIGITS)
+    if (
+        not _regular(marks, frames, width)
+        or b".." in marks
+        or (b"e" in marks and _odd_exponents(body, marks))
+    ):
+        return None
+    values = _parse(body, frames * width)
+    # A sign inside a number ("1-2") ends the parser's reading there, and shows as one sign too many.
+    signs = marks.count(b"-") - marks.count(b"e-")
+    if values is None or signs != np.count_nonzero(np.signbit(values)) or not np.isfinite(values).all():
+        return None
+    return values.reshape(frames, width)
+
+
+def _regular(marks: bytes, frames: int, width: int) -> bool:
+    """Return whether the text without its digits is ``frames`` lines of ``width`` words of ``.e-``."""
+    return marks.translate(None, b".e-") == (b" " * (width - 1) + b"\n") * frames
+
+
+def _tidy(body: bytes) -> bytes:
+    """Return the text with one blank between numbers and none at the ends of lines."""
+    body = body.strip() + b"\n"
+    body = body.replace(b"\r\n", b"\n").replace(b"\r", b"\n").replace(b"\t", b" ")
+    while b"  " in body:
+        body = body.replace(b"  ", b" ")
+    body = body.replace(b" \n", b"\n").replace(b"\n ", b"\n")
+    while b"\n\n" in body:
+        body = body.replace(b"\n\n", b"\n")
+    return body
+
+
+def _odd_exponents(body: bytes, marks: bytes) -> bool:
+    """Return whether something beside ``e``, a sign and digits follows a mantissa, or a sign a digit."""
+    shapes = body.translate(_SHAPES)
+    return any(odd in marks for odd in (b"e.", b"e-.", b"ee", b"e-e", b".-", b"--")) or any(
+        odd in shapes for odd in (b"0-", b"e\n", b"e-\n")
+    )
+
+
+def _parse(body: bytes, count: int) -> Array | None:
+    from scipy.io import mmread
+
+    text = bytearray(b"%%%%MatrixMarket matrix array real general\n%d 1\n" % count)
+    start = len(text)
+    text += body
+    letters = np.frombuffer(text, np.uint8)[start:]
+    letters -= (letters == ord(" ")) * np.uint8(ord(" ") - ord("\n"))  # one number a line
+    try:
+        return np.asarray(mmread(io.BytesIO(text)), np.float64)
+    except (ValueError, OverflowError):
+        return None
+
+
+def _read_careful(body: bytes, width: int) -> tuple[Array, Problem | None]:
+    """Read line by line. A frame may be wrapped over lines, but the next begins on a new line."""
     frames: list[list[float]] = []
     pending: list[bytes] = []
     first = 0
@@ -34,32 +109,25 @@ def read_rows(body: bytes, width: int) -> tuple[Array, Problem | None]:
             fault = _fault(pending, width)
             if fault:
                 return _array(frames, width), Problem(first, fault)
-            frames += _split([float(word) for word in pending], width)
+            frames += _cut([float(word) for word in pending], width)
             pending = []
     if pending:
-        fault = _fault(pending, width) or f"{len(pending)} numbers where {width} were declared"
-        return _array(frames, width), Problem(first, fault)
+        return _array(frames, width), Problem(first, _fault(pending, width))
     return _array(frames, width), None
 
 
 def _fault(words: list[bytes], width: int) -> str:
     for i, word in enumerate(words):
         text = word.decode("latin-1")
-        if number(text) != number(text):
+        if np.isnan(number(text)):
             hint = "; write decimals with a point" if "," in text else ""
             return f"number {i % width + 1} is {text[:30]!r}, not a finite number{hint}"
     return f"{len(words)} numbers where {width} were declared" if len(words) % width else ""
 
 
-def _split(values: list[float], width: int) -> list[list[float]]:
+def _cut(values: list[float], width: int) -> list[list[float]]:
     return [values[i : i + width] for i in range(0, len(values), width)]
 
 
 def _array(frames: list[list[float]], width: int) -> Array:
     return np.array(frames, np.float64).reshape(-1, width)
-
-
-def write_rows(values: Array, newline: bytes) -> bytes:
-    """Return the text of the frames ``(T, C)``, each number as the shortest that reads back the same."""
-    end = newline.decode()
-    return "".join(" ".join(map(repr, row)) + end for row in values.tolist()).encode()

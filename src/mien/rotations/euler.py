@@ -14,17 +14,32 @@ AXES = {"X": 0, "Y": 1, "Z": 2}
 
 def from_euler(angles: Array, order: str) -> Array:
     """Return the quaternions ``(..., 4)`` of ``angles (..., n)``, one angle for each letter of ``order``."""
-    out: Array | None = None
     half = 0.5 * np.asarray(angles)
     sine, cosine = np.sin(half), np.cos(half)
-    for i, axis in enumerate(order):
+    if len(set(order)) == len(order) == 3:
+        return _three_axes(sine, cosine, order)
+    out = np.zeros((*half.shape[:-1], 4))
+    out[..., 3] = 1.0
+    for n, axis in enumerate(order):
         q = np.zeros((*half.shape[:-1], 4))
-        q[..., AXES[axis]] = sine[..., i]
-        q[..., 3] = cosine[..., i]
-        out = q if out is None else multiply(out, q)
-    if out is None:
-        out = np.zeros((*half.shape[:-1], 4))
-        out[..., 3] = 1.0
+        q[..., AXES[axis]] = sine[..., n]
+        q[..., 3] = cosine[..., n]
+        out = multiply(out, q)
+    return out
+
+
+def _three_axes(sine: Array, cosine: Array, order: str) -> Array:
+    """Multiply out ``q_i q_j q_k`` of three different axes, from the sines and cosines of half angles."""
+    i, j, k = (AXES[a] for a in order)
+    sign = 1.0 if (j - i) % 3 == 1 else -1.0
+    si, sj, sk = (sine[..., n] for n in range(3))
+    ci, cj, ck = (cosine[..., n] for n in range(3))
+    ss, cc, sc, cs = sign * si * sj, ci * cj, si * cj, ci * sj
+    out = np.empty((*sine.shape[:-1], 4))
+    out[..., i] = sc * ck + sign * cs * sk
+    out[..., j] = cs * ck - sign * sc * sk
+    out[..., k] = cc * sk + ss * ck
+    out[..., 3] = cc * ck - ss * sk
     return out
 
 
