@@ -35,6 +35,7 @@ CASES: Mapping[str, list[dict[str, Any]]] = {
         {"pose": "arms_legs_in", "amount": 0.5, "method": "additive"},
     ],
     "resample": [{"fps": 40}],
+    "timing": [{"acceleration": 0.6}, {"acceleration": -0.8}, {"acceleration": 0.5, "limbs": ("head",)}],
     "trim": [{"end": 1.5}],
 }
 # Edit without a neutral value -> parameters that leave the motion as it is, or why there are none.

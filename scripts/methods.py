@@ -1,0 +1,162 @@
+"""Write METHODS.md and the generated part of docs/methods/*.md from the registry of edits.
+
+``python scripts/methods.py`` writes them; with ``--check`` it only says which are out of date. What the
+text says comes from the edits themselves: change the edit, then run this.
+"""
+
+import sys
+from pathlib import Path
+
+import mien.edits
+from mien.cli.flags import flag_name
+from mien.edits.registry import EDITS, Edit, Parameter
+
+ROOT = Path(__file__).resolve().parents[1]
+COMMAND = "python scripts/methods.py"
+BEGIN = f"<!-- from the registry; written by `{COMMAND}`, not by hand -->"
+END = "<!-- end of the generated part -->"
+KINDS = {
+    "pose": "changes poses frame by frame: follows strength, body parts and time spans",
+    "time": "changes frames or the whole clip: strength, parts and spans do not apply",
+    "repair": "mends the whole clip, given the motion before the edits",
+}
+# Values that show an edit; without a line here the first parameter goes a quarter of the way up.
+SHOWN = {"resample": {"fps": 30}, "trim": {"start": 0.5, "end": 2.0}, "path_length": {"mid": 1.5}}
+
+
+def example(edit: Edit) -> dict[str, object]:
+    """Return parameters that show what the edit does."""
+    if edit.name in SHOWN:
+        return dict(SHOWN[edit.name])
+    for name, p in edit.parameters.items():
+        low, high = p.about.neutral, p.about.high
+        if low is not None and high is not None:
+            return {name: float(f"{low + 0.25 * (high - low):.2g}")}
+    return {}
+
+
+def command(edit: Edit) -> str:
+    """Return a command line that does the example."""
+    flags = [f"{flag_name(edit.name, name)} {_plain(value)}" for name, value in example(edit).items()]
+    own = flag_name(edit.name)
+    if not flags and edit.kind == "repair":
+        return "mien edit walk.bvh --emotion sad   # repairs follow every pose edit by themselves"
+    return f"mien edit walk.bvh {' '.join(flags) or own}"
+
+
+def call(edit: Edit) -> str:
+    """Return a line of Python that does the example."""
+    values = ", ".join(f'"{name}": {_plain(value)}' for name, value in example(edit).items())
+    return f'mien.apply(walk, [mien.Step("{edit.name}", {{{values}}})])'
+
+
+def _plain(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value).lower()
+
+
+def parameter_table(edit: Edit) -> list[str]:
+    """Return the lines of a table of parameters, or the sentence that there are none."""
+    if not edit.parameters:
+        return ["It has no parameters."]
+    head = ["| parameter | what it does | range | default | neutral |", "| --- | --- | --- | --- | --- |"]
+    return head + [_row(edit, p) for p in edit.parameters.values()]
+
+
+def _row(edit: Edit, p: Parameter) -> str:
+    low, high = ("" if v is None else f"{v:g}" for v in (p.about.low, p.about.high))
+    span = f"{low} to {high}" if low and high else f"from {low}" if low else ""
+    limits = " or ".join(f"`{c}`" for c in p.choices) or f"{span} {p.about.unit}".strip()
+    default = "" if p.default is None else _plain(p.default) or "none"
+    default = ", ".join(p.default) if isinstance(p.default, tuple) else default
+    neutral = "" if p.about.neutral is None else f"{p.about.neutral:g}"
+    about = _cell(p.doc)
+    return f"| `{p.name}`<br>`{flag_name(edit.name, p.name)}` | {about} | {limits} | {default} | {neutral} |"
+
+
+def facts(edit: Edit, *, up: str) -> list[str]:
+    """Return the table of what is known of an edit; ``up`` is the way to the project's root."""
+    name = edit.name
+    rows = {
+        "kind": f"`{edit.kind}`: {KINDS[edit.kind]}",
+        "paper": edit.paper or "none: plain geometry",
+        "equation": f"`{edit.equation}`" if edit.equation else "none",
+        "deviations": edit.deviations or "none",
+        "command": f"`{command(edit)}`",
+        "Python": f"`{call(edit)}`",
+        "function": f"[`mien.edits.{name}.{name}`]({up}src/mien/edits/{name}.py)",
+        "tests": f"[`tests/edits/test_{name}.py`]({up}tests/edits/test_{name}.py), and `tests/laws`",
+    }
+    lines = (f"| {key} | {_cell(value)} |" for key, value in rows.items())
+    return ["| | |", "| --- | --- |", *lines]
+
+
+def _cell(text: str) -> str:
+    """Return text as one cell of a table: one line, no bars, code in single backticks."""
+    return " ".join(text.replace("|", "\\|").replace("``", "`").split())
+
+
+def methods() -> str:
+    """Return the text of METHODS.md."""
+    lines = [
+        "# Methods",
+        "",
+        BEGIN,
+        "",
+        "What every edit does, where it comes from, and how it differs from its source. "
+        "What it looks like, and when to use it, is in `docs/methods`.",
+        "",
+    ]
+    for name in sorted(EDITS):
+        edit = EDITS[name]
+        lines += [
+            f"## [{name}](docs/methods/{name}.md)",
+            "",
+            _cell(edit.summary),
+            "",
+            *facts(edit, up=""),
+            "",
+        ]
+        lines += [*parameter_table(edit), ""]
+    return "\n".join(lines)
+
+
+def page(edit: Edit, written: str) -> str:
+    """Return a page of docs/methods with its generated part brought up to date."""
+    made = "\n".join([BEGIN, "", *facts(edit, up="../../"), "", *parameter_table(edit), "", END])
+    before, found, rest = written.partition(BEGIN)
+    if not found:
+        return f"{written.rstrip() or '# ' + edit.name}\n\n{made}\n"
+    return before + made + rest.partition(END)[2]
+
+
+def texts() -> dict[Path, str]:
+    """Return every generated file and what it should hold."""
+    out = {ROOT / "METHODS.md": methods()}
+    for name, edit in EDITS.items():
+        file = ROOT / "docs" / "methods" / f"{name}.md"
+        out[file] = page(edit, file.read_text(encoding="utf-8") if file.exists() else "")
+    return out
+
+
+def stale() -> list[str]:
+    """Return the names of generated files that do not hold what they should."""
+    return [
+        str(file.relative_to(ROOT))
+        for file, text in texts().items()
+        if not file.exists() or file.read_text(encoding="utf-8") != text
+    ]
+
+
+def main() -> None:
+    """Write the files, or with ``--check`` exit with 1 when one is out of date."""
+    old = stale()
+    if "--check" in sys.argv[1:]:
+        sys.exit(f"out of date: {', '.join(old)}; run `{COMMAND}`" if old else 0)
+    for file, text in texts().items():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+    print("\n".join(f"wrote {name}" for name in old) or f"up to date: {mien.edits.__name__}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,129 @@
+"""Documents say what the code does: METHODS.md and its pages, the list of public names, the presets."""
+
+import importlib
+import importlib.util
+import re
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import mien
+from mien.edits.pipeline import check
+from mien.edits.registry import EDITS
+from mien.recipe import Step
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
+# Packages whose __all__ is the public interface, and those whose modules are namespaces of functions.
+INTERFACES = ("mien", "mien.formats", "mien.render", "mien.samples")
+NAMESPACES = ("rotations", "signal", "kinematics", "edits", "analysis", "emotion")
+
+
+@pytest.fixture(scope="module")
+def generator() -> ModuleType:
+    """The script that writes the generated documents."""
+    spec = importlib.util.spec_from_file_location("methods", ROOT / "scripts" / "methods.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def text(name: str) -> str:
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def test_generated_documents_are_current(generator: ModuleType) -> None:
+    stale = generator.stale()
+    assert not stale, f"{', '.join(stale)} out of date: run `{generator.COMMAND}` and commit what it wrote"
+
+
+@pytest.mark.parametrize("name", sorted(EDITS))
+def test_the_example_of_an_edit_can_be_done(generator: ModuleType, name: str) -> None:
+    check(Step(name, generator.example(EDITS[name])))
+
+
+@pytest.mark.parametrize("name", sorted(EDITS))
+def test_every_edit_has_a_page_that_a_person_wrote(name: str) -> None:
+    file = DOCS / "methods" / f"{name}.md"
+    assert file.is_file(), f"write {file.relative_to(ROOT)}, then run `python scripts/methods.py`"
+    page = file.read_text(encoding="utf-8")
+    for part in (
+        "**To the motion.**",
+        "**To the viewer.**",
+        "## When to use it",
+        f"_static/methods/{name}.png",
+    ):
+        assert part in page, f"{file.relative_to(ROOT)} lacks {part!r}"
+
+
+def test_every_page_is_of_an_edit() -> None:
+    pages = {p.stem for p in (DOCS / "methods").glob("*.md")}
+    assert pages - {"index"} == set(EDITS), "a page without its edit, or an edit without its page"
+
+
+def documented() -> set[str]:
+    """Return the dotted names that the reference pages describe."""
+    found: set[str] = set()
+    for page in (DOCS / "api").glob("*.md"):
+        found |= set(re.findall(r"\.\. auto\w+:: (mien[\w.]*)", page.read_text(encoding="utf-8")))
+    return found
+
+
+def public() -> set[str]:
+    """Return the dotted names that are public: by ``__all__``, or as a module of a namespace."""
+    names = set()
+    for package in INTERFACES:
+        names |= {f"{package}.{name}" for name in importlib.import_module(package).__all__}
+    for package in NAMESPACES:
+        folder = ROOT / "src" / "mien" / package
+        stems = {p.stem for p in folder.glob("*.py")} | {p.parent.name for p in folder.glob("*/__init__.py")}
+        names |= {f"mien.{package}.{stem}" for stem in stems if not stem.startswith("_")}
+    return names - {"mien.__version__", "mien.render", "mien.samples"}
+
+
+def test_every_public_name_is_in_the_reference_and_the_other_way_round() -> None:
+    missing, gone = sorted(public() - documented()), sorted(documented() - public())
+    assert not missing, f"add these to a page in docs/api: {missing}"
+    assert not gone, f"these are in docs/api but not public any more: {gone}"
+
+
+@pytest.mark.parametrize("package", INTERFACES)
+def test_all_resolves(package: str) -> None:
+    module = importlib.import_module(package)
+    assert len(set(module.__all__)) == len(module.__all__)
+    for name in module.__all__:
+        assert getattr(module, name) is not None
+
+
+@pytest.mark.parametrize("file", ["README.md", "docs/presets.md"])
+def test_every_emotion_word_is_listed(file: str) -> None:
+    words = {name for name in mien.PRESETS if "/" not in name}
+    missing = sorted(w for w in words if f"`{w}`" not in text(file))
+    assert not missing, f"add {missing} to {file}"
+
+
+def test_the_readme_picture_is_small_and_made_by_a_script() -> None:
+    pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text("README.md"))
+    assert len(pictures) == 1
+    assert (ROOT / pictures[0]).stat().st_size < 300_000
+    assert Path(pictures[0]).name in "".join(
+        p.read_text(encoding="utf-8") for p in (ROOT / "scripts").glob("*.py")
+    )
+
+
+def test_links_between_documents_lead_somewhere() -> None:
+    pages = [*ROOT.glob("*.md"), *DOCS.rglob("*.md")]
+    dead = [
+        f"{page.relative_to(ROOT)} -> {link}"
+        for page in pages
+        for link in re.findall(r"\]\((?!https?:|#|mailto:)([^)#\s]+)", page.read_text(encoding="utf-8"))
+        if "_static" not in link and not (page.parent / link).exists()
+    ]
+    assert not dead, f"links that lead nowhere: {dead}"
+
+
+def test_the_version_is_the_same_everywhere() -> None:
+    version = re.search(r'^version = "(.+)"', text("pyproject.toml"), re.MULTILINE).group(1)
+    assert f"\nversion: {version}\n" in text("CITATION.cff")
+    assert f"## [{version}]" in text("CHANGELOG.md") or "## [Unreleased]" in text("CHANGELOG.md")
