@@ -5,6 +5,8 @@ then by where they sit among their siblings.
 """
 
 import re
+from functools import cache
+from itertools import permutations, product
 
 import numpy as np
 
@@ -19,6 +21,9 @@ _SWAPS = {"left": "right", "lft": "rgt", "l": "r", "左": "右"}
 _SWAPS |= {b: a for a, b in _SWAPS.items()}
 _SIDE = re.compile(r"left|right|lft|rgt|左|右|(?<![a-z])[lr](?![a-z])", re.IGNORECASE)
 _CAPITAL = re.compile(r"(?<![A-Z])[LR](?=[A-Z][a-z])|(?<=[a-z0-9])[LR](?![a-z])|^[lr](?=[A-Z])")
+
+# How far bones may be off (share of their length) for axes to count as lying along axes.
+MISFIT = 0.15
 
 
 def partners(skeleton: Skeleton, body: Body) -> Integers:
@@ -76,24 +81,23 @@ def _pair_by_place(skeleton: Skeleton, partner: Integers) -> None:
 def mirrored(motion: Motion, body: Body) -> tuple[Array, Array]:
     """Return the local rotations (T, J, 4) and translations (T, J, 3) of the motion seen in a mirror.
 
-    The mirror stands upright through the hips of the first frame, along the way they face there. With
-    ``A = Y^-1 W N^-1`` (world rotations from the neutral stance ``N``, start yaw ``Y`` taken out) each
-    joint gets ``S A S`` of its partner, ``S`` the reflection left to right: so no local axes matter,
-    and doing it twice gives the motion back. Joints without a partner keep their local rotation;
+    The mirror stands upright through the hips of the first frame, along the way they face there. A
+    reflection is a half turn and an inversion, so each joint gets ``h W_m q``: ``h`` the half turn about
+    the mirror's normal, ``W_m`` the partner's world rotations, ``q`` the half turn that takes the
+    partner's own axes to the joint's (``own_axes``). Joints without a partner keep their local rotation;
     joints above the hips are mirrored if they move.
     """
     hips = body.roles["hips"]
     rotations, positions = world(motion)
-    stance = neutral_world(motion, body)[0]
-    undone = quaternion.conjugate(stance)
-    yaw = quaternion.twist(quaternion.multiply(rotations[0, hips], undone[hips]), body.up)
     pairs = _pairs(motion, body)
-    seen = quaternion.multiply(quaternion.conjugate(yaw), quaternion.multiply(rotations, undone))
-    flipped = quaternion.multiply(yaw, quaternion.multiply(_flip_turn(seen[:, pairs], body.left), stance))
+    axes = own_axes(motion, body, pairs)
+    normal = _level(quaternion.rotate(rotations[0, hips], axes[hips, :3]), body)
+    half_turn = np.append(normal, 0.0)
+    flipped = quaternion.multiply(half_turn, quaternion.multiply(rotations[:, pairs], axes))
     turned, local = _hang(motion, pairs >= 0, flipped)
 
-    translations = _flip_stretch(motion, pairs, stance, body.left)
-    points = _flip_points(positions, positions[0, hips], quaternion.rotate(yaw, body.left))
+    translations = _flip_stretch(motion, pairs, axes)
+    points = positions - 2.0 * ((positions - positions[0, hips]) @ normal)[..., None] * normal
     points = np.where((pairs >= 0)[:, None], points, positions)
     joint, parents = hips, motion.skeleton.parents
     while joint >= 0 and pairs[joint] >= 0:
@@ -103,6 +107,92 @@ def mirrored(motion: Motion, body: Body) -> tuple[Array, Array]:
         translations[:, joint] = quaternion.rotate(frame, points[:, joint] - base)
         joint = above
     return quaternion.continuous(local), translations
+
+
+def _level(sideways: Array, body: Body) -> Array:
+    """Return the unit horizontal part of a vector (3,), or the body's left where it stands upright."""
+    level = sideways - (sideways @ body.up) * body.up
+    length = float(np.linalg.norm(level))
+    return level / length if length > 1e-6 else body.left
+
+
+def own_axes(motion: Motion, body: Body, pairs: Integers) -> Array:
+    """Return rotations ``q`` (J, 4): ``-q^-1 v`` is what a partner's own vector ``v`` is in the mirror.
+
+    Bones tell: of the 24 ways in which axes can lie along axes, the one that takes the partner's bones
+    to the joint's and agrees with the neutral stance. Where none does, the stance itself, turned to fit
+    the bone.
+    """
+    stance = neutral_world(motion, body)[0]
+    q = np.tile(np.append(body.left, 0.0), (len(pairs), 1))
+    for joint, other in enumerate(pairs):
+        if other < 0:
+            continue
+        if other < joint:
+            q[joint] = quaternion.conjugate(q[other])
+            continue
+        above, beside = int(motion.skeleton.parents[joint]), int(motion.skeleton.parents[other])
+        paired = above >= 0 and pairs[above] == beside
+        start = q[above] if paired else np.append(body.left, 0.0)
+        mine, theirs = (
+            quaternion.multiply(quaternion.conjugate(stance[p]), stance[j]) if paired else stance[j]
+            for p, j in ((above, joint), (beside, other))
+        )
+        guess = quaternion.multiply(quaternion.conjugate(theirs), quaternion.multiply(start, mine))
+        q[joint] = _fitted(guess, *_bones(motion, pairs, joint, other), middle=joint == other)
+    return q
+
+
+def _bones(motion: Motion, pairs: Integers, joint: int, other: int) -> tuple[Array, Array]:
+    """Return the bones (N, 3) below a joint in its own axes, and those of its partner in theirs."""
+    skeleton = motion.skeleton
+    known = [c for c in skeleton.children(joint) if pairs[c] in skeleton.children(other)]
+    ends = [np.flatnonzero(skeleton.end_parents == j)[:1] for j in (joint, other)]
+    mine = np.concatenate([motion.translations[0, known], skeleton.end_offsets[ends[0]]])
+    theirs = np.concatenate([motion.translations[0, pairs[known]], skeleton.end_offsets[ends[1]]])
+    return (mine, theirs) if len(ends[0]) == len(ends[1]) else (mine[: len(known)], theirs[: len(known)])
+
+
+def _fitted(guess: Array, mine: Array, theirs: Array, *, middle: bool) -> Array:
+    """Return the way axes lie along axes that fits the bones and is near ``guess``; else ``guess`` fitted."""
+    ways = _half_turns() if middle else _axis_turns()
+    size = max(float(np.sum(mine * mine)), 1e-300)
+    seen = -quaternion.rotate(quaternion.conjugate(ways)[:, None], theirs)
+    misfit = np.sum((seen - mine) ** 2, axis=(1, 2)) / size
+    angle = 2.0 * np.arccos(np.clip(np.abs(ways @ guess), 0.0, 1.0))
+    cost = np.minimum(misfit, 1.0) + 0.1 * angle**2
+    best = int(np.argmin(cost))
+    if misfit[best] < MISFIT**2 and angle[best] < np.radians(50.0):
+        return ways[best]
+    if middle or not len(mine):
+        return guess
+    back = quaternion.conjugate(guess)
+    longest = int(np.argmax(np.sum(mine * mine, axis=-1)))
+    return quaternion.conjugate(
+        quaternion.multiply(
+            quaternion.between(-quaternion.rotate(back, theirs[longest]), mine[longest]), back
+        )
+    )
+
+
+@cache
+def _axis_turns() -> Array:
+    """Return the 24 rotations (24, 4) that lay coordinate axes along coordinate axes."""
+    turns = []
+    for order in permutations(range(3)):
+        for signs in product((1.0, -1.0), repeat=3):
+            matrix = np.zeros((3, 3))
+            matrix[range(3), order] = signs
+            if np.linalg.det(matrix) > 0:
+                turns.append(quaternion.from_matrix(matrix))
+    return np.stack(turns)
+
+
+@cache
+def _half_turns() -> Array:
+    """Return those of the 24 that undo themselves: the nine half turns."""
+    turns = _axis_turns()
+    return turns[np.abs(turns[:, 3]) < 1e-9]
 
 
 def _pairs(motion: Motion, body: Body) -> Integers:
@@ -134,27 +224,15 @@ def _hang(motion: Motion, known: Mask, flipped: Array) -> tuple[Array, Array]:
     return turned, local
 
 
-def _flip_stretch(motion: Motion, pairs: Integers, stance: Array, normal: Array) -> Array:
+def _flip_stretch(motion: Motion, pairs: Integers, axes: Array) -> Array:
     """Return the translations with what bones stretch and slide handed to the partner, lengths kept."""
     translations, parents = np.array(motion.translations), motion.skeleton.parents
     moving = np.ptp(translations, axis=0).any(axis=-1)
     for joint, other in enumerate(pairs):
-        above, beside = int(parents[joint]), int(parents[other])
-        if other < 0 or above < 0 or beside < 0 or not (moving[joint] or moving[other]):
+        above = int(parents[joint])
+        if other < 0 or above < 0 or pairs[above] != parents[other] or not (moving[joint] or moving[other]):
             continue
         mean = motion.translations[:, [joint, other]].mean(axis=0)
-        slide = quaternion.rotate(stance[beside], motion.translations[:, other] - mean[1])
-        slide = _flip_points(slide, 0.0, normal)
-        translations[:, joint] = mean[0] + quaternion.rotate(quaternion.conjugate(stance[above]), slide)
+        slide = motion.translations[:, other] - mean[1]
+        translations[:, joint] = mean[0] - quaternion.rotate(quaternion.conjugate(axes[above]), slide)
     return translations
-
-
-def _flip_turn(q: Array, normal: Array) -> Array:
-    """Return rotations seen in a mirror: of their axis only the part along ``normal`` keeps its sign."""
-    along = np.einsum("...i,i->...", q[..., :3], normal)[..., None] * normal
-    return np.concatenate([2.0 * along - q[..., :3], q[..., 3:]], axis=-1)
-
-
-def _flip_points(points: Array, origin: Array | float, normal: Array) -> Array:
-    """Return points seen in the mirror through ``origin`` with unit ``normal``."""
-    return points - 2.0 * np.einsum("...i,i->...", points - origin, normal)[..., None] * normal
