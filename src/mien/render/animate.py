@@ -43,7 +43,7 @@ def animate(
     foot is seen. ``against`` (such as the motion before an edit) is shown to the left, or as a ghost
     behind with ``beside=False``; a motion that ends first holds its last frame. ``view`` is one of
     those of ``strip``, from where the body faces on average. ``fps`` defaults to the clip's own rate
-    or the largest whole part of it up to 30 (25 for GIF). ``size`` is the height of the picture, or
+    or the largest whole part of it up to 30. ``size`` is the height of the picture, or
     (width, height) of each figure's panel. ``colour`` and ``body`` are as in ``strip``.
 
     The file appears whole or not at all. Raises ``MienError`` for another file ending, an unknown
@@ -57,7 +57,11 @@ def animate(
     if not (32 <= width <= 4096 and 32 <= height <= 4096):
         raise MienError(f"a film needs 32 to 4096 pixels each way, got {width} x {height}")
     size = width - width % 2, height - height % 2  # H.264 wants even sizes
-    panels = _panels(Figure.of(motion, body=body, colour=colour), against, beside, view, size)
+    before = None
+    if against is not None:
+        before = Figure.of(against, body=body, colour=colour if beside else GHOST)
+    figure = Figure.of(motion, body=body, colour=colour, like=before)
+    panels = _panels(figure, before, beside, view, size)
     length = max(motion.duration, against.duration if against else 0.0)
     count = int(np.floor(length * rate + 1e-6)) + 1
     pictures = (_picture(panels, k / rate) for k in range(count))
@@ -99,17 +103,17 @@ class _Actor:
 
 
 def _panels(
-    figure: Figure, against: Motion | None, beside: bool, view: str, size: tuple[int, int]
+    figure: Figure, before: Figure | None, beside: bool, view: str, size: tuple[int, int]
 ) -> list[_Panel]:
     axes = view_axes(view, figure.up, _mean_facing(figure))
-    actors = [_Actor(figure)]
-    if against is None:
-        return _to_one_scale([("", actors)], axes, size)
-    if not beside:
-        return _to_one_scale(
-            [("", [_Actor(Figure.of(against, colour=GHOST), ghost=True), *actors])], axes, size
-        )
-    return _to_one_scale([("original", [_Actor(Figure.of(against))]), ("edited", actors)], axes, size)
+    actor = _Actor(figure)
+    if before is None:
+        groups = [("", [actor])]
+    elif beside:
+        groups = [("original", [_Actor(before)]), ("edited", [actor])]
+    else:
+        groups = [("", [_Actor(before, ghost=True), actor])]
+    return _to_one_scale(groups, axes, size)
 
 
 def _to_one_scale(groups: list[tuple[str, list[_Actor]]], axes: Array, size: tuple[int, int]) -> list[_Panel]:

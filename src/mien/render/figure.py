@@ -8,11 +8,9 @@ import numpy as np
 from ..errors import BodyError
 from ..kinematics.body import Body
 from ..kinematics.fk import end_positions, world
-from ..kinematics.heading import heading
 from ..motion import Motion
-from ..rotations import quaternion
 from ..typing import Array, Integers
-from .mannequin import PALETTE, mannequin, plain_palette
+from .mannequin import PALETTE, Soles, mannequin, plain_palette
 from .solids import Solids
 
 LEGS_TALL = 2.0  # a person is about two leg lengths tall
@@ -40,18 +38,30 @@ class Figure:
     ground: Array
     facing: Array
     palette: Array
+    soles: Soles | None = None
 
     @classmethod
-    def of(cls, motion: Motion, *, body: Body | None = None, colour: str | None = None) -> Self:
-        """Make a figure of a motion: a mannequin, or sticks where no human body is found."""
+    def of(
+        cls,
+        motion: Motion,
+        *,
+        body: Body | None = None,
+        colour: str | None = None,
+        like: "Figure | None" = None,
+    ) -> Self:
+        """Make a figure of a motion: a mannequin, or sticks where no human body is found.
+
+        ``like`` lends its body, floor and feet to a motion of the same skeleton: an edit moves the
+        figure, not the floor, so a foot that sinks is seen to sink.
+        """
+        shared = like if like and like.motion.skeleton.names == motion.skeleton.names else None
         rotations, positions = world(motion)
         palette = None if colour is None else plain_palette(colour)
         try:
-            body = body or Body.of(motion)
+            body = body or (shared and shared.body) or Body.of(motion)
         except BodyError:
             return cls._sticks(motion, rotations, positions, palette)
         ground = _on_floor(positions[:, body.roles["hips"]], body.up, body.floor)
-        yaw = _smooth(heading(positions, body), motion.fps)
         return cls(
             motion,
             body,
@@ -62,8 +72,9 @@ class Figure:
             body.leg_length,
             body.metres_per_unit,
             ground,
-            quaternion.rotate(quaternion.exp(yaw[:, None] * body.up), body.forward),
+            _facing(positions, body, motion.fps),
             PALETTE if palette is None else palette,
+            (shared and shared.soles) or Soles.of(motion, body, positions),
         )
 
     @classmethod
@@ -90,13 +101,27 @@ class Figure:
     def solids(self, frames: Integers) -> Solids:
         """Return the solids of some frames."""
         rotations, positions = self.rotations[frames], self.positions[frames]
-        if self.body is not None:
-            return mannequin(self.motion, self.body, rotations, positions)
+        if self.body and self.soles:
+            return mannequin(self.motion, self.body, rotations, positions, self.soles)
         return _bones(self.motion, rotations, positions, self.size)
 
     def steady_ground(self) -> Array:
         """Return ``ground`` without the sway of single steps (T, 3), for a camera to follow."""
         return _smooth(self.ground, self.motion.fps)
+
+
+def _facing(positions: Array, body: Body, fps: float) -> Array:
+    """Return the level direction (T, 3) that hips and shoulders face on average over a second.
+
+    The hips alone swing with every step and may be twisted far against the chest.
+    """
+    facing: Array = np.zeros((len(positions), 3))
+    for role in ("hip", "shoulder"):
+        side = positions[:, body.roles[f"left_{role}"]] - positions[:, body.roles[f"right_{role}"]]
+        facing += np.cross(side, body.up) / np.maximum(np.linalg.norm(side, axis=1, keepdims=True), 1e-12)
+    facing = _smooth(facing, fps)
+    length = np.linalg.norm(facing, axis=1, keepdims=True)
+    return np.where(length > 0.05, facing / np.maximum(length, 0.05), body.forward)
 
 
 def _on_floor(points: Array, up: Array, floor: float) -> Array:

@@ -6,7 +6,7 @@ from ..typing import Array
 from .solids import Camera, Solids
 
 DARKNESS, FADE, REACH = 0.34, 0.16, 0.4  # of the shadow; heights in leg lengths
-LINE, PATCH = 0.10, 2.2  # darkness of the grid lines; radius of the visible floor in leg lengths
+SHADE, LINE, PATCH = 0.045, 0.10, 2.2  # darkness of floor and grid lines; radius of the floor in leg lengths
 
 
 def shadow(
@@ -45,21 +45,23 @@ def grid(canvas: Array, camera: Camera, up: Array, middle: Array, size: float, s
         canvas[round(y) :] *= 0.955
         return
     height, width = canvas.shape[:2]
+    centre, radius = camera.project(middle), PATCH * size * camera.scale
+    top, end = (int(np.clip(centre[1] + s * radius * tilt, 0, height)) for s in (-1, 1))
     # A pixel's point on the floor: from the middle, along the camera's right and along the floor away.
     away = np.cross(up, camera.axes[0])
-    centre = camera.project(middle)
     right = ((np.arange(width) + 0.5 - centre[0]) / camera.scale)[None].astype(np.float32)
-    back = ((centre[1] - np.arange(height) - 0.5) / (camera.scale * tilt))[:, None].astype(np.float32)
-    patch = 1.0 - (right**2 + back**2) / (PATCH * size) ** 2
-    patch = np.clip(2.0 * patch, 0.0, 1.0)
+    back = ((centre[1] - np.arange(top, end) - 0.5) / (camera.scale * tilt))[:, None].astype(np.float32)
+    lines = np.zeros((end - top, width), np.float32)
     first = _floor_axis(up)
-    lines = np.zeros((height, width), np.float32)
     for axis in (first, np.cross(up, first)):
-        place = float(middle @ axis) + float(camera.axes[0] @ axis) * right + float(away @ axis) * back
-        slope = np.hypot(camera.axes[0] @ axis, (away @ axis) / tilt) / camera.scale
-        distance = np.abs((place / step + 0.5) % 1.0 - 0.5) * step / slope
-        np.maximum(lines, np.clip(1.3 - distance, 0.0, 1.0), out=lines)
-    canvas *= (1.0 - patch * (0.045 + LINE * lines))[..., None]
+        across, along = float(camera.axes[0] @ axis), float(away @ axis)
+        place = (float(middle @ axis) / step % 1.0 + across / step * right) + along / step * back
+        place -= np.rint(place)
+        pixels = step * camera.scale / np.hypot(across, along / tilt)  # from line to line
+        np.maximum(lines, 1.3 - np.abs(place) * np.float32(pixels), out=lines)
+    patch = 2.0 - (2.0 / (PATCH * size) ** 2) * (right**2 + back**2)
+    patch = np.clip(patch, 0.0, 1.0, out=patch)
+    canvas[top:end] *= (1.0 - patch * (SHADE + LINE * np.minimum(lines, 1.0)))[..., None]
 
 
 def _floor_axis(up: Array) -> Array:

@@ -5,6 +5,9 @@ turned with its joint, so that a head bowed through the whole clip is drawn bowe
 the hand is a mitten. Left is blue and right is orange.
 """
 
+from dataclasses import dataclass
+from typing import Self
+
 import numpy as np
 
 from ..errors import MienError
@@ -17,7 +20,7 @@ from .solids import Solids
 
 # Half widths in leg lengths at the start and end of each limb bone.
 THIGH, SHIN, UPPER_ARM, FOREARM = (0.098, 0.062), (0.064, 0.040), (0.058, 0.045), (0.046, 0.032)
-SKULL, HAND = (0.088, 0.135, 0.112), (0.022, 0.095, 0.050)  # half axes: left, up or along, forward
+SKULL, HAND = (0.094, 0.132, 0.114), (0.022, 0.095, 0.050)  # half axes: left, up or along, forward
 SOLE = 0.036  # half thickness of the foot
 BASE, DARK, HAIR = 0, 1, 2
 SIDE, JOINT = {"left": 3, "right": 4}, {"left": 5, "right": 6}
@@ -35,12 +38,51 @@ PALETTE = np.array(
 )
 
 
-def mannequin(motion: Motion, body: Body, rotations: Array, positions: Array) -> Solids:
+@dataclass(frozen=True, eq=False)
+class Soles:
+    """The feet as the floor shows them, in leg lengths: one number each for the left and right foot.
+
+    ``depth`` from the ankle straight down to the sole when the foot is flat, ``length`` from the ankle
+    forward to the ball of the foot.
+    """
+
+    depth: tuple[float, float]
+    length: tuple[float, float]
+
+    @classmethod
+    def of(cls, motion: Motion, body: Body, positions: Array) -> Self:
+        """Measure them: a foot that stands has its sole on ``body.floor``.
+
+        How high the toe joint (or, without one, the ankle) is above the floor differs from skeleton
+        to skeleton; the lowest tenth of the frames tells, within what a foot can be.
+        """
+        stance, depth, length = _stance(motion, body)[1], [], []
+        for side in SIDES:
+            ankle = body.roles[f"{side}_ankle"]
+            toe = body.roles.get(f"{side}_toe")
+            joint, least, most = (ankle, 0.06, 0.13) if toe is None else (toe, 0.0, 0.05)
+            low = (np.quantile(positions[:, joint] @ body.up, 0.1) - body.floor) / body.leg_length
+            bone = (stance[joint] - stance[ankle]) / body.leg_length
+            drop = -float(bone @ body.up)
+            depth.append(float(np.clip(drop + np.clip(low, least, most), 0.04, 0.16)))
+            ahead = float(np.linalg.norm(bone + drop * body.up))
+            length.append(0.13 if toe is None else float(np.clip(ahead, 0.08, 0.17)))
+        return cls((depth[0], depth[1]), (length[0], length[1]))
+
+
+def _stance(motion: Motion, body: Body) -> tuple[Array, Array]:
+    """Return world rotations (J, 4) and positions (J, 3) of the neutral stance."""
+    rest = np.median(motion.translations, axis=0)
+    rotations, positions = fk(body.neutral[None], rest[None], motion.skeleton.parents)
+    return rotations[0], positions[0]
+
+
+def mannequin(motion: Motion, body: Body, rotations: Array, positions: Array, soles: Soles) -> Solids:
     """Return the solids of poses given by world ``rotations (F, J, 4)`` and ``positions (F, J, 3)``.
 
-    ``motion`` and ``body`` tell the neutral stance and the measures; all poses share one shape.
+    ``motion``, ``body`` and ``soles`` tell the neutral stance and the measures; all poses share one shape.
     """
-    build = _Builder(motion, body, rotations, positions)
+    build = _Builder(motion, body, rotations, positions, soles)
     for side in SIDES:
         _leg(build, side)
         _foot(build, side)
@@ -54,12 +96,10 @@ def mannequin(motion: Motion, body: Body, rotations: Array, positions: Array) ->
 class _Builder:
     """Collects solids; knows where each role is and how it is turned from the neutral stance."""
 
-    def __init__(self, motion: Motion, body: Body, rotations: Array, positions: Array) -> None:
-        self.body, self.positions, self.roles = body, positions, body.roles
+    def __init__(self, motion: Motion, body: Body, rotations: Array, positions: Array, soles: Soles) -> None:
+        self.body, self.positions, self.roles, self.soles = body, positions, body.roles, soles
         self.unit = body.leg_length
-        rest = np.median(motion.translations, axis=0)
-        stance, places = fk(body.neutral[None], rest[None], motion.skeleton.parents)
-        self.stance = places[0]  # where the joints are in the neutral stance
+        stance, self.stance = _stance(motion, body)
         self.turns = quaternion.multiply(rotations, quaternion.conjugate(stance))
         self.up, self.forward, self.left = body.up, body.forward, body.left
         self.cones: list[tuple[Array, Array, float, float, int]] = []
@@ -116,32 +156,27 @@ def _foot(build: _Builder, side: str) -> None:
     """Heel to the two sides of the ball, ball to toes: flat, and it shows where the toes point."""
     ankle = build.roles[f"{side}_ankle"]
     toe = build.roles.get(f"{side}_toe", ankle)
-    along, length, depth = _foot_measures(build, ankle, toe)
+    depth, length = (pair[SIDES.index(side)] for pair in (build.soles.depth, build.soles.length))
+    along = _foot_direction(build, ankle, toe)
     across, unit = np.cross(build.up, along), build.unit
     start = build.positions[:, ankle]
     low = (SOLE - depth) * build.up
     heel = start + build.turned(ankle, unit * (low - 0.055 * along))
-    build.cone(
-        start, start + build.turned(ankle, unit * (low + 0.35 * length * along)), (0.042, SOLE), SIDE[side]
-    )
+    instep = start + build.turned(ankle, unit * (low + 0.35 * length * along))
+    build.cone(start, instep, (0.042, SOLE), SIDE[side])
     for sign in (-1.0, 1.0):
         aside = 0.024 * sign * across
         ball = start + build.turned(ankle, unit * (low + length * along + aside))
         tip = ball + build.turned(toe, unit * ((0.2 - length) * along - 0.012 * build.up - 0.3 * aside))
-        build.cone(heel, ball, (0.040, SOLE), SIDE[side])
+        build.cone(heel, ball, (SOLE, SOLE), SIDE[side])
         build.cone(ball, tip, (SOLE, 0.024), JOINT[side])
 
 
-def _foot_measures(build: _Builder, ankle: int, toe: int) -> tuple[Array, float, float]:
-    """Return the foot's direction, its length from ankle to ball and the ankle's height, in leg lengths."""
+def _foot_direction(build: _Builder, ankle: int, toe: int) -> Array:
+    """Return where the toes point in the neutral stance, level."""
     bone = (build.stance[toe] - build.stance[ankle]) / build.unit
-    drop = -float(bone @ build.up)
-    level = bone + drop * build.up
-    length = float(np.linalg.norm(level))
-    if length < 0.05:
-        return build.forward, 0.13, 0.09
-    # The floor under the toe joint is not measured in every skeleton: half a foot's thickness is assumed.
-    return level / length, float(np.clip(length, 0.08, 0.17)), float(np.clip(drop + 0.03, 0.06, 0.14))
+    level = bone - (bone @ build.up) * build.up
+    return _unit(level) if np.linalg.norm(level) > 0.05 else build.forward
 
 
 def _arm(build: _Builder, side: str) -> None:
@@ -178,24 +213,28 @@ def _trunk(build: _Builder) -> None:
     """Pelvis, belly and ribs along the bend of the spine, turned from the hips' to the shoulders' line."""
     hips = [build.at(f"{s}_hip") for s in SIDES]
     shoulders = [build.at(f"{s}_shoulder") for s in SIDES]
-    middle, top = 0.5 * (hips[0] + hips[1]), _neck_base(build)
+    middle, top = 0.5 * (hips[0] + hips[1]), _trunk_top(build)
     line = np.stack([middle, *(build.positions[:, j] for j in build.body.spine[1:]), top], axis=1)
     wide = [_unit(hips[0] - hips[1]), _unit(shoulders[0] - shoulders[1])]
     length = float(np.median(np.linalg.norm(top - middle, axis=1))) / build.unit
-    hip_width = _width(build, "hip")
-    ribs = float(np.clip(0.41 * _width(build, "shoulder"), 0.13, 0.22))
-    pelvis = float(np.clip(0.5 * hip_width + 0.075, 0.13, 0.20))
+    ribs = float(np.clip(0.43 * _width(build, "shoulder"), 0.13, 0.22))
+    pelvis = float(np.clip(0.5 * _width(build, "hip") + 0.075, 0.13, 0.20))
     for share, half in (
         (0.06, (pelvis, 0.12, 0.112)),
-        (0.38, (0.5 * (ribs + pelvis) * 0.82, 0.30 * length, 0.102)),
-        (0.70, (ribs, 0.36 * length, 0.122)),
+        (0.38, (0.44 * (ribs + pelvis), 0.30 * length, 0.104)),
+        (0.70, (ribs, 0.35 * length, 0.122)),
     ):
         centre, along = _sample(line, share)
         left = _unit((1 - share) * wide[0] + share * wide[1])
         left = _unit(left - np.einsum("fi,fi->f", left, along)[:, None] * along)
         build.ellipsoid(centre, [left, along, np.cross(left, along)], half, BASE)
     for shoulder in shoulders:
-        build.cone(top, shoulder, (0.05, 0.052), BASE)
+        build.cone(top, shoulder, (0.07, 0.056), BASE)
+
+
+def _trunk_top(build: _Builder) -> Array:
+    """Return the middle between the shoulders: skeletons differ in where their neck begins."""
+    return 0.5 * (build.at("left_shoulder") + build.at("right_shoulder"))
 
 
 def _width(build: _Builder, role: str) -> float:
@@ -218,14 +257,6 @@ def _sample(line: Array, share: float) -> tuple[Array, Array]:
     return point(share), _unit(point(share + 0.25) - point(share - 0.25))
 
 
-def _neck_base(build: _Builder) -> Array:
-    if build.body.neck:
-        return build.positions[:, build.body.neck[0]]
-    if "neck" in build.roles:
-        return build.at("neck")
-    return 0.5 * (build.at("left_shoulder") + build.at("right_shoulder"))
-
-
 def _head(build: _Builder) -> None:
     joint, place = _head_joint(build)
     axes = [build.turned(joint, v) for v in (build.left, build.up, build.forward)]
@@ -234,14 +265,14 @@ def _head(build: _Builder) -> None:
     def point(left: float, up: float, forward: float) -> Array:
         return place + build.turned(joint, build.vector(left, up + lift, forward))
 
-    build.cone(_neck_base(build), point(0, -0.06, -0.01), (0.058, 0.05), BASE)
+    build.cone(_trunk_top(build), point(0, -0.06, -0.01), (0.062, 0.052), BASE)
     build.ellipsoid(point(0, 0, 0), axes, SKULL, BASE)
-    build.ellipsoid(point(0, -0.075, 0.03), axes, (0.058, 0.058, 0.072), BASE)  # jaw
-    build.ellipsoid(point(0, 0.022, -0.022), axes, (0.093, 0.124, 0.104), HAIR)
-    build.ellipsoid(point(0, 0.016, 0.038), axes, (0.086, 0.024, 0.088), DARK)  # eye band
-    build.cone(point(0, -0.015, 0.10), point(0, -0.035, 0.152), (0.026, 0.012), DARK)  # nose
+    build.ellipsoid(point(0, -0.07, 0.034), axes, (0.06, 0.058, 0.07), BASE)  # jaw
+    build.ellipsoid(point(0, 0.024, -0.022), axes, (0.098, 0.121, 0.105), HAIR)
+    build.ellipsoid(point(0, 0.018, 0.04), axes, (0.089, 0.034, 0.088), DARK)  # eye band
+    build.cone(point(0, -0.022, 0.10), point(0, -0.042, 0.15), (0.024, 0.013), HAIR)  # nose
     for sign, side in ((1.0, "left"), (-1.0, "right")):
-        build.ball(point(0.09 * sign, -0.005, -0.005), 0.022, JOINT[side])
+        build.ball(point(0.096 * sign, -0.008, -0.005), 0.024, JOINT[side])
 
 
 def _head_joint(build: _Builder) -> tuple[int, Array]:
@@ -252,7 +283,7 @@ def _head_joint(build: _Builder) -> tuple[int, Array]:
         joint = build.roles["neck"]
     else:
         joint = build.body.spine[-1] if build.body.spine else build.roles["hips"]
-    return joint, _neck_base(build) + build.turned(joint, build.vector(0, 0.1, 0))
+    return joint, _trunk_top(build) + build.turned(joint, build.vector(0, 0.13, 0))
 
 
 def _skull_lift(build: _Builder, joint: int) -> float:
@@ -261,7 +292,7 @@ def _skull_lift(build: _Builder, joint: int) -> float:
         return 0.1
     feet = min(float(build.stance[build.roles[f"{s}_ankle"]] @ build.up) for s in SIDES)
     above = (build.body.height - float(build.stance[joint] @ build.up) + feet) / build.unit - 0.09
-    return float(np.clip(above - SKULL[1], 0.07, 0.13))
+    return float(np.clip(above - SKULL[1], 0.05, 0.13))
 
 
 def _unit(v: Array) -> Array:

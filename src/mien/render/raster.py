@@ -151,37 +151,38 @@ def _nearer(z: Array, t: Array, other_z: Array, other_t: Array | np.float32) -> 
 
 def _resolve(buffer: _Buffer, palette: Array) -> Layer:
     """Light the nearest surfaces and average the samples of each pixel."""
-    hit = buffer.index >= 0
-    nx, ny = buffer.normal[0][hit], buffer.normal[1][hit]
+    hit = np.flatnonzero(buffer.index >= 0)
+    nx, ny = buffer.normal.reshape(2, -1)[:, hit]
     nz = np.sqrt(np.maximum(1.0 - nx * nx - ny * ny, 0.0))
     x, y, z = (LIGHT / np.linalg.norm(LIGHT)).astype(np.float32)
     # Half-Lambert light reaches round the body, so that no part drowns in black; edges turn darker.
-    lit = AMBIENT + (1.0 - AMBIENT) * (0.5 + 0.5 * (nx * x + ny * y + nz * z)) ** 1.5
-    lit *= 0.82 + 0.26 * nz
-    lit *= 1.0 - OUTLINE * _steps(buffer)[hit]
-    colour = np.zeros((*hit.shape, 3), np.float32)
-    colour[hit] = np.minimum(palette.astype(np.float32)[buffer.index[hit]] * lit[:, None], 255.0)
-    return Layer(
-        _average(colour), _average(hit.astype(np.float32)), buffer.left // SAMPLES, buffer.top // SAMPLES
-    )
+    lit = 0.5 + 0.5 * (nx * x + ny * y + nz * z)
+    lit = (AMBIENT + (1.0 - AMBIENT) * lit * np.sqrt(lit)) * (0.82 + 0.26 * nz)
+    lit *= 1.0 - OUTLINE * _steps(buffer).ravel()[hit]
+    seen = palette.astype(np.float32)[buffer.index.ravel()[hit]] * lit[:, None]
+    samples = np.zeros((*buffer.index.shape, 4), np.float32)  # red, green, blue and cover
+    flat = samples.reshape(-1, 4)
+    flat[hit, :3] = np.minimum(seen, 255.0)
+    flat[hit, 3] = 1.0
+    pixels = 0.25 * (samples[::2, ::2] + samples[1::2, ::2] + samples[::2, 1::2] + samples[1::2, 1::2])
+    return Layer(pixels[..., :3], pixels[..., 3], buffer.left // SAMPLES, buffer.top // SAMPLES)
 
 
 def _steps(buffer: _Buffer) -> Array:
     """Return 1 where a nearer surface begins beside a pixel and 0 where the depth is smooth."""
-    depth = np.where(buffer.index >= 0, buffer.depth, np.nan)
+    far = np.float32(-1e9)
+    depth = np.maximum(buffer.depth, far)
     size = np.float32(0.02 * np.hypot(*depth.shape))  # a depth step that counts, in samples
     step = np.zeros(depth.shape, np.float32)
-    across = np.nan_to_num(depth[:, 1:] - depth[:, :-1])
-    down = np.nan_to_num(depth[1:] - depth[:-1])
+    across, down = depth[:, 1:] - depth[:, :-1], depth[1:] - depth[:-1]
+    # Only between two surfaces: the outline against the paper is clear without a line.
+    across[np.abs(across) > 1e8] = 0.0
+    down[np.abs(down) > 1e8] = 0.0
     step[:, :-1] = across
     np.maximum(step[:, 1:], -across, out=step[:, 1:])
     np.maximum(step[:-1], down, out=step[:-1])
     np.maximum(step[1:], -down, out=step[1:])
     return np.clip(step / size - 0.5, 0.0, 1.0)
-
-
-def _average(samples: Array) -> Array:
-    return 0.25 * (samples[::2, ::2] + samples[1::2, ::2] + samples[::2, 1::2] + samples[1::2, 1::2])
 
 
 def paste(canvas: Array, layer: Layer | None, *, opacity: float = 1.0) -> None:

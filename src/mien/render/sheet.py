@@ -72,33 +72,40 @@ class Layout:
     """Where everything goes, in pixels; ``scale`` in pixels a leg length."""
 
     width: int
+    height: int
     scale: float
-    middle: float  # of a figure's reach to left and right, from its origin
+    middle: float  # of a figure's reach to left and right of its origin
     text: int  # height of the letters
     head: int  # height of the title
-    row: int  # height of a row
-    floor: int  # from the top of a row down to the floor
-    band: int  # from the floor down to the labels below it
+    tops: list[int]  # of each row
+    floors: list[int]  # of each row
+    ends: list[int]  # of each row's floor; the labels come below
 
     @classmethod
     def of(cls, rows: list[Row], width: int, titled: bool) -> "Layout":
-        """Find the largest scale at which every figure fits its panel."""
-        extents = np.array([s.extent(p.axes) for r in rows for p in r.panels for s in p.shots])
-        left, bottom = np.minimum(extents.min(axis=0)[[0, 2]], [np.inf, 0.0])
-        right, top = np.maximum(extents.max(axis=0)[[1, 3]], [-np.inf, 0.1])
-        panel = (width - 2 * MARGIN) / max(len(r.panels) for r in rows)
-        scale = min(panel / (right - left + 0.12), TALLEST * width / (top - bottom))
+        """Find the largest scale at which every figure fits its panel, and stack the rows."""
+        extents = [np.array([s.extent(p.axes) for p in row.panels for s in p.shots]) for row in rows]
+        left = min(float(e[:, 0].min()) for e in extents)
+        right = max(float(e[:, 1].max()) for e in extents)
+        low = [min(0.0, float(e[:, 2].min())) for e in extents]
+        high = [max(0.1, float(e[:, 3].max())) for e in extents]
+        panel = (width - 2 * MARGIN) / max(len(row.panels) for row in rows)
+        tallest = max(h - b for h, b in zip(high, low, strict=True))
+        scale = min(panel / (right - left + 0.12), TALLEST * width / tallest)
         text = int(np.clip(width / 110, 9, 15))
-        floor, band = round(top * scale) + text + 12, round(-bottom * scale) + 8
         head = 2 * text + 4 if titled else 4
-        return cls(width, scale, 0.5 * (left + right), text, head, floor + band + text + 8, floor, band)
+        tops, floors, ends, y = [], [], [], head
+        for b, h in zip(low, high, strict=True):
+            tops.append(y)
+            floors.append(y + round(h * scale) + text + 12)
+            ends.append(floors[-1] + round(-b * scale) + 8)
+            y = ends[-1] + text + 8
+        return cls(width, y, scale, 0.5 * (left + right), text, head, tops, floors, ends)
 
-    def places(self, rows: list[Row], row: int) -> tuple[list[float], int]:
-        """Return where the origins of a row's panels are: right, and down."""
-        count = len(rows[row].panels)
-        step = (self.width - 2 * MARGIN) / count
-        shift = MARGIN + 0.5 * step - self.middle * self.scale
-        return [shift + k * step for k in range(count)], self.head + row * self.row + self.floor
+    def origins(self, panels: int) -> list[float]:
+        """Return how far right the origin of each of a row's panels is."""
+        step = (self.width - 2 * MARGIN) / panels
+        return [MARGIN + (k + 0.5) * step - self.middle * self.scale for k in range(panels)]
 
 
 def sheet(rows: list[Row], *, width: int, title: str = "", notes: Mapping[str, str] | None = None) -> "Image":
@@ -109,18 +116,19 @@ def sheet(rows: list[Row], *, width: int, title: str = "", notes: Mapping[str, s
     if width < 64:
         raise MienError(f"a picture needs a width of at least 64 pixels, got {width}")
     layout = Layout.of(rows, width, bool(title or notes))
-    canvas = np.empty((layout.head + layout.row * len(rows), width, 3), np.float32)
+    canvas = np.empty((layout.height, width, 3), np.float32)
     canvas[:] = PAPER
     for i, row in enumerate(rows):
-        _draw_row(canvas, row, *layout.places(rows, i), layout)
+        _draw_row(canvas, row, i, layout)
     image = to_image(canvas)
     _write(image, rows, layout, title, notes or {})
     return image
 
 
-def _draw_row(canvas: Array, row: Row, xs: list[float], y: int, layout: Layout) -> None:
+def _draw_row(canvas: Array, row: Row, index: int, layout: Layout) -> None:
+    xs, y, end = layout.origins(len(row.panels)), layout.floors[index], layout.ends[index]
     if row.panels[0].level:
-        canvas[y : y + layout.band] *= FLOOR
+        canvas[y:end] *= FLOOR
         canvas[y : y + 1] *= 0.72
     dark = np.zeros(canvas.shape[:2], np.float32)
     shots = [
@@ -150,11 +158,11 @@ def _write(image: "Image", rows: list[Row], layout: Layout, title: str, notes: M
         pen.text((right, layout.head / 2), note, colour, font, anchor="rm")
         right -= int(pen.textlength(note, font)) + 2 * MARGIN
     for i, row in enumerate(rows):
-        xs, y = layout.places(rows, i)
-        pen.text((MARGIN, y - layout.floor + 2), row.label, FAINT, small, anchor="lt")
+        xs = layout.origins(len(row.panels))
+        pen.text((MARGIN, layout.tops[i] + 2), row.label, FAINT, small, anchor="lt")
         for panel, x in zip(row.panels, xs, strict=True):
             middle = x + layout.middle * layout.scale
-            pen.text((middle, y + layout.band + 3), panel.label, FAINT, small, anchor="mt")
+            pen.text((middle, layout.ends[i] + 3), panel.label, FAINT, small, anchor="mt")
     _scale_bar(pen, rows, layout, small)
 
 

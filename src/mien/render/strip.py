@@ -36,12 +36,12 @@ def strip(
     (from the body's right, so that a walk goes to the right), left, right, back, three-quarter and
     top; the camera turns with the body. ``travel`` leaves the poses where they really are, seen by
     one camera. ``colour`` (a name or ``#rrggbb``) makes a figure of one colour instead of blue on
-    the left and orange on the right. ``body`` is used for ``motion`` instead of searching it.
+    the left and orange on the right. ``body`` saves or overrides the search for one, in both motions.
 
     Raises ``MienError`` for an unknown view or fewer than one pose.
     """
-    figure = Figure.of(motion, body=body, colour=colour)
-    ghost = None if against is None else Figure.of(against, colour=GHOST)
+    ghost = None if against is None else Figure.of(against, body=body, colour=GHOST)
+    figure = Figure.of(motion, body=body, colour=colour, like=ghost)
     frames = pose_frames(len(motion), poses)
     make = _travelling if travel else _standing
     rows = [Row(view, make(figure, frames, ghost, view)) for view in _views(views)]
@@ -69,7 +69,7 @@ def compare(
     ghost = None if against is None else Figure.of(against, colour=GHOST)
     rows = []
     for label, motion in motions.items():
-        figure = Figure.of(motion, colour=colour)
+        figure = Figure.of(motion, colour=colour, like=ghost)
         frames = pose_frames(len(motion), poses)
         panels = [panel for view in _views(views) for panel in _standing(figure, frames, ghost, view)]
         rows.append(Row(label, panels))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 # Frames a second: the usual most, and the limit. Players slow a GIF down whose frames last under 20 ms.
-LIMITS = {".gif": (25.0, 50.0), ".mp4": (30.0, 240.0)}
+LIMITS = {".gif": (30.0, 50.0), ".mp4": (30.0, 240.0)}
 SETS = 6  # pictures that a GIF's palette is made from
 
 
@@ -29,7 +29,7 @@ def frame_rate(path: Path, own: float, wanted: float | None) -> float:
         raise MienError(f"{path}: a film is a .gif or a .mp4 file")
     usual, most = LIMITS[path.suffix.lower()]
     if wanted is None:
-        return own / max(1, int(np.ceil(own / usual - 1e-6)))
+        return own / max(1, int(np.ceil(own / usual - 0.01)))
     if not 0 < wanted <= most:
         raise MienError(f"fps must be above 0 and at most {most:g} for {path.suffix}, got {wanted:g}")
     return wanted
@@ -81,7 +81,7 @@ def _mp4(pictures: Iterator[Array], fps: float) -> bytes:
         raise MienError('MP4 needs PyAV: pip install "mien[video]" (or write a .gif)') from error
     out = BytesIO()
     first = next(pictures)
-    with av.open(out, "w", format="mp4", options={"movflags": "+faststart", "fflags": "+bitexact"}) as film:
+    with av.open(out, "w", format="mp4", options={"fflags": "+bitexact"}) as film:
         rate = Fraction(fps).limit_denominator(1001)
         stream = film.add_stream(
             "libx264", rate=rate, options={"crf": "20", "preset": "fast", "threads": "1"}
