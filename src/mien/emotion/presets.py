@@ -1,0 +1,57 @@
+"""The recipes that stand for emotion words: mien's own, and the thesis's as ``s0/NAME``.
+
+Each is a file in ``recipes/`` with its evidence and the source of every number. None is learned from
+data.
+"""
+
+from functools import cache
+from importlib.resources import files
+
+from ..errors import RecipeError, unknown
+from ..recipe import Recipe
+from .files import parse_recipe
+
+OWN = (
+    "afraid",
+    "angry",
+    "confident",
+    "energetic-sad",
+    "excited",
+    "feminine",
+    "happy",
+    "masculine",
+    "nervous",
+    "proud",
+    "relaxed",
+    "sad",
+    "strong",
+    "tired",
+    "weak",
+)
+S0 = (
+    "afraid",
+    "angry",
+    "energetic-sad",
+    "excited",
+    "feminine",
+    "happy",
+    "masculine",
+    "relaxed",
+    "sad",
+    "strong",
+    "tired",
+    "weak",
+)
+PRESETS = (*OWN, *(f"s0/{name}" for name in S0))
+
+
+@cache
+def preset(name: str) -> Recipe:
+    """Return the recipe of an emotion word such as ``"sad"`` or ``"s0/sad"``.
+
+    Raises ``RecipeError`` with the nearest word when there is none of that name.
+    """
+    if name not in PRESETS:
+        raise RecipeError(unknown("emotion", name, PRESETS))
+    text = files(__package__).joinpath("recipes", f"{name}.toml").read_text(encoding="utf-8")
+    return parse_recipe(text, where=f"preset {name}")
