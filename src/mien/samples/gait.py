@@ -19,8 +19,9 @@ from ..errors import MienError
 from ..rotations import quaternion
 from ..typing import Array, Integers
 from .curves import cycle, keyed, quintic
-from .figure import ANKLE, HEEL, SHANK, SIDES, STANCE, THIGH, TOE, about, arm, leg, posed, trunk, turned
-from .sample import Figure, Form, Sample, Truth, sample, times
+from .figure import ANKLE, SHANK, SIDES, STANCE, THIGH, TOE
+from .pose import Arm, Foot, Pose, Turn, about, build, rolled, trunk, turned
+from .sample import Form, Sample, Truth, sample, times
 
 DEGREE = np.pi / 180.0
 
@@ -37,12 +38,12 @@ class Gait:
     foot_flat: float = 0.09
     heel_off: float = 0.30
     toe_off: float = 0.59
-    strike_pitch: float = 15.0
-    push_pitch: float = 57.0
-    toe_peak: float = 0.075
-    clearance: float = 0.022
-    straightest_knee: float = 4.0
-    bob: float = 0.017
+    strike_pitch: float = 16.5
+    push_pitch: float = 58.0
+    toe_peak: float = 0.051
+    clearance: float = 0.016
+    straightest_knee: float = 3.5
+    bob: float = 0.0145
     sway: float = 0.020
     pelvis_yaw: float = 5.0
     pelvis_list: float = 4.0
@@ -69,7 +70,7 @@ TIRED = Gait(
     toe_off=0.64,
     strike_pitch=7.0,
     push_pitch=42.0,
-    toe_peak=0.05,
+    toe_peak=0.035,
     clearance=0.012,
     straightest_knee=14.0,
     bob=0.010,
@@ -93,21 +94,36 @@ def walk(
     *, seconds: float = 4.0, cadence: float = 1.8, step_length: float = 0.7, **form: Unpack[Form]
 ) -> Sample:
     """Walk straight at ``cadence`` (0.5 to 3 steps a second), ``step_length`` (0.2 to 0.9 metres)."""
-    return _walk("walk", replace(NORMAL, cadence=cadence, step_length=step_length), seconds, form)
+    return _walk("walk", _paced(NORMAL, cadence, step_length), seconds, form)
 
 
 def tired_walk(
     *, seconds: float = 5.0, cadence: float = 1.35, step_length: float = 0.48, **form: Unpack[Form]
 ) -> Sample:
     """Walk slowly, stooped, head down, arms hanging; parameters as in ``walk``."""
-    return _walk("tired_walk", replace(TIRED, cadence=cadence, step_length=step_length), seconds, form)
+    return _walk("tired_walk", _paced(TIRED, cadence, step_length), seconds, form)
 
 
 def turn(*, seconds: float = 4.0, angle: float = 0.5 * np.pi, **form: Unpack[Form]) -> Sample:
     """Walk along an arc that turns by ``angle`` radians to the left (-3.5 to 3.5) within ``seconds``."""
-    gait = replace(NORMAL, cadence=1.7, step_length=0.55)
+    gait = _paced(NORMAL, 1.7, 0.6)
     way = gait.cadence * gait.step_length * max(seconds, 1e-9)
     return _walk("turn", replace(gait, curvature=angle / way if seconds else 0.0), seconds, form)
+
+
+def _paced(gait: Gait, cadence: float, step_length: float) -> Gait:
+    """Return the gait at another pace: what belongs to longer steps grows in proportion."""
+    ratio = step_length / gait.step_length
+    return replace(
+        gait,
+        cadence=cadence,
+        step_length=step_length,
+        strike_pitch=gait.strike_pitch * ratio,
+        push_pitch=gait.push_pitch * min(ratio, 1.2),
+        bob=gait.bob * ratio,
+        pelvis_yaw=gait.pelvis_yaw * ratio,
+        shoulder_swing=gait.shoulder_swing * ratio,
+    )
 
 
 def _walk(name: str, gait: Gait, seconds: float, form: Form) -> Sample:
@@ -120,7 +136,7 @@ def _walk(name: str, gait: Gait, seconds: float, form: Form) -> Sample:
         raise MienError(f"{name}: the arc is tighter than a radius of 1 metre; give it more seconds")
     t = times(seconds, form)
     phase = 0.5 * gait.cadence * t
-    figure, angles = _posed(gait, phase)
+    figure, angles = build(_posed(gait, phase))
     truth = Truth(
         contacts=np.stack([_contacts(gait, phase, side) for side in SIDES], axis=1),
         angles=angles,
@@ -156,16 +172,9 @@ def _stride(phase: Array, side: str) -> tuple[Array, Integers]:
     return np.maximum(own - count, 0.0), count.astype(np.int64)
 
 
-def _posed(gait: Gait, phase: Array) -> tuple[Figure, dict[str, Array]]:
-    feet = {side: _foot(gait, phase, side) for side in SIDES}
-    parts, angles = _upper_body(gait, phase)
-    hips = _carried(gait, phase)
-    hips[:, 1] += _height(gait)
-    for side, foot in feet.items():
-        found, known = leg(hips, parts["hips"], side, foot.ankle, foot.rotation)
-        parts |= found | {f"{side}_ankle": foot.rotation, f"{side}_toe": foot.toes}
-        angles |= known
-    return Figure(posed(parts, len(phase)), hips), angles
+def _posed(gait: Gait, phase: Array) -> Pose:
+    pose = replace(_upper_body(gait, phase), feet={side: _foot(gait, phase, side) for side in SIDES})
+    return replace(pose, hips=pose.hips + [0.0, _height(gait), 0.0])
 
 
 # --- the way
@@ -184,15 +193,6 @@ def _way(gait: Gait, distance: Array, aside: Array | float = 0.0) -> tuple[Array
 # --- the feet
 
 
-@dataclass(frozen=True, eq=False)
-class Foot:
-    """One foot over time: the ankle's place (T, 3), the rotations (T, 4) of foot and toes."""
-
-    ankle: Array
-    rotation: Array
-    toes: Array
-
-
 def _foot(gait: Gait, phase: Array, side: str) -> Foot:
     u, count = _stride(phase, side)
     pitch = _pitch(gait, u)
@@ -201,11 +201,11 @@ def _foot(gait: Gait, phase: Array, side: str) -> Foot:
     share = np.clip((u - gait.toe_off) / (1.0 - gait.toe_off), 0.0, 1.0)
     swing = share > 0.0
     yaw = facing + (facing_next - facing) * share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
-    toe = here + _rotate(facing, _rolled(TOE, pitch))
+    toe = here + _rotate(facing, rolled(TOE, pitch))
     flown = _swing(gait, share, here + _rotate(facing, TOE), there, facing_next)
     toe = np.where(swing[:, None], flown, toe)
-    rotation = turned(yaw, -pitch, np.zeros_like(yaw))
-    toes = turned(yaw, _toe_pitch(gait, u), np.zeros_like(yaw))
+    rotation = turned(yaw, -pitch)
+    toes = turned(yaw, _toe_pitch(gait, u))
     return Foot(toe + quaternion.rotate(rotation, ANKLE - TOE), rotation, toes)
 
 
@@ -228,10 +228,10 @@ def _pitch(gait: Gait, u: Array) -> Array:
         (0.0, strike, slope),
         (gait.foot_flat, 0.0),
         (gait.heel_off, 0.0),
-        (gait.toe_off - 0.088, -0.32 * push, -4.2 * push),
-        (gait.toe_off, -push, -8.9 * push),
-        (gait.toe_off + 0.06, -1.19 * push, 0.0, 65.0 * push),
-        (0.93, 1.15 * strike, 0.0, -80.0 * strike),
+        (gait.toe_off - 0.088, -0.31 * push, -4.1 * push),
+        (gait.toe_off, -push, -10.4 * push),
+        (gait.toe_off + 0.06, -1.16 * push, 0.0, 8.0 * push),
+        (0.93, 1.3 * strike, 0.0, -280.0 * strike),
         (1.0, strike, slope),
     ]
     return keyed(u, keys) * DEGREE
@@ -241,14 +241,8 @@ def _toe_pitch(gait: Gait, u: Array) -> Array:
     """Return how far the toes point down (T,): flat on the floor to toe-off, then as the foot."""
     pitch = _pitch(gait, u)
     planted = (u >= gait.foot_flat) & (u <= gait.toe_off)
-    share = np.clip((u - gait.toe_off) / (0.85 - gait.toe_off), 0.0, 1.0)
+    share = np.clip((u - gait.toe_off) / (0.95 - gait.toe_off), 0.0, 1.0)
     return np.where(planted, 0.0, -pitch * share**3 * (10.0 - 15.0 * share + 6.0 * share**2))
-
-
-def _rolled(point: Array, pitch: Array) -> Array:
-    """Return a point of the planted foot (T, 3): it rolls about the heel, then about the toe joint."""
-    pivot = np.where(pitch[:, None] > 0.0, HEEL, TOE)
-    return pivot + quaternion.rotate(about(0, -pitch), point - pivot)
 
 
 def _swing(gait: Gait, share: Array, start: Array, there: Array, facing: Array) -> Array:
@@ -261,16 +255,16 @@ def _swing(gait: Gait, share: Array, start: Array, there: Array, facing: Array) 
     stop = there + _rotate(facing, landing)
     way = stop - start
     zero = np.zeros_like(start)
-    begin = np.stack([start, zero, 5.4 * way], axis=-1)
-    end = np.stack([stop, _rotate(facing, speed), 1.8 * way], axis=-1)
-    flown = quintic(share[:, None], begin, end) - 0.134 * 64.0 * (share * (1.0 - share))[:, None] ** 3 * way
+    begin = np.stack([start, zero, 10.0 * way], axis=-1)
+    end = np.stack([stop, _rotate(facing, speed), 8.2 * way], axis=-1)
+    flown = quintic(share[:, None], begin, end) - 0.239 * 64.0 * (share * (1.0 - share))[:, None] ** 3 * way
     peak, low = gait.toe_peak, gait.clearance
-    bend = 40.0 * (peak - low)
+    bend = 48.0 * (peak - low)
     keys = [
-        (0.0, 0.0, 0.0, 150.0 * peak),
-        (0.26, peak, 0.0, -bend),
-        (0.62, low, 0.0, bend),
-        (1.0, landing[1] - TOE[1], speed[1], rush[1]),
+        (0.0, 0.0, 0.0, 240.0 * peak),
+        (0.22, peak, 0.0, -bend),
+        (0.49, low, 0.0, bend),
+        (1.0, landing[1] - TOE[1], speed[1], rush[1] + 5.0),
     ]
     flown[:, 1] = TOE[1] + keyed(share, keys)
     return flown
@@ -279,7 +273,7 @@ def _swing(gait: Gait, share: Array, start: Array, there: Array, facing: Array) 
 def _landing(gait: Gait) -> Array:
     """Return place, speed and acceleration (3, 3) of the toe joint at heel strike, per share of swing."""
     step = 1e-4
-    place = _rolled(TOE, _pitch(gait, np.array([0.0, step, 2.0 * step])))
+    place = rolled(TOE, _pitch(gait, np.array([0.0, step, 2.0 * step])))
     length = 1.0 - gait.toe_off
     speed = (-3.0 * place[0] + 4.0 * place[1] - place[2]) / (2.0 * step) * length
     rush = (place[0] - 2.0 * place[1] + place[2]) / step**2 * length**2
@@ -298,55 +292,55 @@ def _carried(gait: Gait, phase: Array) -> Array:
     sway = -gait.sway * np.cos(2.0 * np.pi * (phase - 0.30))
     surge = 0.008 * np.sin(4.0 * np.pi * (phase - 0.03))
     place, _ = _way(gait, 2.0 * gait.step_length * phase + surge, sway)
-    place[:, 1] = -gait.bob * np.cos(4.0 * np.pi * (phase + 0.01))
+    place[:, 1] = -gait.bob * np.cos(4.0 * np.pi * (phase + 0.003))
     return place
 
 
 def _height(gait: Gait) -> float:
     """Return the mean height of the hips: as high as the straightest knee of the stride allows."""
     phase = np.linspace(0.0, 1.0, 400, endpoint=False)
-    pelvis = _upper_body(gait, phase)[0]["hips"]
-    carried = _carried(gait, phase)
+    pose = _upper_body(gait, phase)
+    pelvis = trunk(pose)["hips"]
     knee = np.pi - gait.straightest_knee * DEGREE
     reach = np.sqrt(THIGH**2 + SHANK**2 - 2.0 * THIGH * SHANK * np.cos(knee))
     room = np.inf
     for side in SIDES:
-        hip = carried + quaternion.rotate(pelvis, STANCE[f"{side}_hip"] - STANCE["hips"])
+        hip = pose.hips + quaternion.rotate(pelvis, STANCE[f"{side}_hip"] - STANCE["hips"])
         gap = _foot(gait, phase, side).ankle - hip
         room = min(room, float(np.min(gap[:, 1] + np.sqrt(reach**2 - gap[:, 0] ** 2 - gap[:, 2] ** 2))))
     return room
 
 
-def _upper_body(gait: Gait, phase: Array) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Return the rotations of trunk and arms, and their angles."""
+def _upper_body(gait: Gait, phase: Array) -> Pose:
+    """Return the pose without feet, the hips at height 0."""
     d = DEGREE
     _, heading = _way(gait, 2.0 * gait.step_length * phase)
-    zero = np.zeros_like(phase)
     nod = cycle(phase, 0.0, (0.0, 0.0), (1.0, 0.05))
-    pelvis = (
-        heading + cycle(phase, 0.0, (gait.pelvis_yaw * d, 0.0)),
-        (gait.pelvis_tilt + nod) * d,
-        cycle(phase, 0.0, (-gait.pelvis_list * d, 0.17)),
-    )
     yaw = cycle(phase, 0.0, (-gait.thorax_yaw * d, 0.02))
-    thorax = (heading + yaw, (gait.lean + nod) * d, cycle(phase, 0.0, (1.5 * d, 0.2)))
-    head = (heading + 0.15 * yaw, (gait.head_lean - 0.6 * nod) * d, zero)
-    parts = trunk(pelvis, thorax, head)
-    angles = {"trunk_lean": thorax[1], "trunk_yaw": yaw, "head_lean": head[1]}
-    for side in SIDES:
-        own = phase + (0.5 if side == "left" else 0.0)
-        shoulder = cycle(own, gait.shoulder_mean, (gait.shoulder_swing, 0.52), (1.0, 0.1)) * d
-        elbow = cycle(own, gait.elbow_mean, (gait.elbow_swing, 0.57), (2.0, 0.05)) * d
-        angles |= {f"{side}_shoulder": shoulder, f"{side}_elbow": elbow}
-        parts |= arm(
-            parts["chest"],
-            side,
-            flexion=shoulder,
-            abduction=7.0 * d,
-            rotation=-12.0 * d,
-            elbow=elbow,
-            pronation=15.0 * d,
-            wrist=6.0 * d,
-            collar=(gait.shrug * d, (gait.slump + 2.0 * np.cos(2.0 * np.pi * (own - 0.52))) * d),
-        )
-    return parts, angles
+    return Pose(
+        hips=_carried(gait, phase),
+        pelvis=Turn(
+            heading + cycle(phase, 0.0, (gait.pelvis_yaw * d, 0.0)),
+            (gait.pelvis_tilt + nod) * d,
+            cycle(phase, 0.0, (-gait.pelvis_list * d, 0.17)),
+        ),
+        thorax=Turn(heading + yaw, (gait.lean + nod) * d, cycle(phase, 0.0, (1.5 * d, 0.2))),
+        head=Turn(heading + 0.15 * yaw, (gait.head_lean - 0.6 * nod) * d),
+        arms={side: _swinging(gait, phase + (0.5 if side == "left" else 0.0)) for side in SIDES},
+        feet={},
+    )
+
+
+def _swinging(gait: Gait, own: Array) -> Arm:
+    """Return an arm that swings against the leg of its side; ``own`` is that leg's phase."""
+    d = DEGREE
+    return Arm(
+        flexion=cycle(own, gait.shoulder_mean, (gait.shoulder_swing, 0.52), (1.0, 0.1)) * d,
+        abduction=7.0 * d,
+        rotation=-12.0 * d,
+        elbow=cycle(own, gait.elbow_mean, (gait.elbow_swing, 0.57), (2.0, 0.05)) * d,
+        pronation=15.0 * d,
+        wrist=6.0 * d,
+        shrug=gait.shrug * d,
+        reach=(gait.slump + 2.0 * np.cos(2.0 * np.pi * (own - 0.52))) * d,
+    )

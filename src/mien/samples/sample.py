@@ -11,7 +11,8 @@ from ..kinematics.fk import to_local
 from ..motion import Motion, Skeleton
 from ..rotations import quaternion
 from ..typing import Array, Mask
-from .figure import LEG, PARENTS, SEGMENTS, STANCE, about
+from .figure import LEG
+from .pose import Figure, about
 from .skeletons import Rig, rig
 
 METRES = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001, "inch": 0.0254, "foot": 0.3048}
@@ -27,14 +28,6 @@ class Form(TypedDict, total=False):
     unit: str
     up: str
     heading: float
-
-
-@dataclass(frozen=True, eq=False)
-class Figure:
-    """The figure moving, in metres: world rotations (T, 22, 4) of its segments, place of the hips (T, 3)."""
-
-    rotations: Array
-    hips: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,17 +107,6 @@ def sample(name: str, figure: Figure, truth: Truth, **form: Unpack[Form]) -> Sam
         leg_length=LEG * scale,
         metres_per_unit=METRES[unit],
     )
-
-
-def positions(figure: Figure) -> Array:
-    """Return the joint centres of the figure (T, 22, 3) in metres."""
-    out = np.empty((*figure.rotations.shape[:2], 3))
-    out[:, 0] = figure.hips
-    for j, p in enumerate(PARENTS[1:], start=1):
-        out[:, j] = out[:, p] + quaternion.rotate(
-            figure.rotations[:, p], STANCE[SEGMENTS[j]] - STANCE[SEGMENTS[p]]
-        )
-    return out
 
 
 def _expressed(

@@ -13,7 +13,8 @@ import numpy as np
 from ..errors import MienError, unknown
 from ..rotations import quaternion
 from ..typing import Array, Integers
-from .figure import INDEX, SEGMENTS, SIDES, STANCE, STATURE, about
+from .figure import INDEX, PARENTS, SEGMENTS, SIDES, STANCE, STATURE
+from .pose import about
 
 GROUND = ""  # the segment of a dummy root, which stays at the origin
 
@@ -113,8 +114,6 @@ def _standard22() -> Rig:
 
 
 def _above(segment: str) -> str:
-    from .figure import PARENTS
-
     parent = int(PARENTS[INDEX[segment]])
     return SEGMENTS[parent] if parent >= 0 else ""
 
