@@ -1,9 +1,12 @@
 """Arguments that several commands share."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from ..motion import Motion
 
 Clips = Annotated[
     list[str],
@@ -20,6 +23,13 @@ MapFile = Annotated[
     Path | None,
     typer.Option("--map", help="A map file, for joints that are not found: which joint is the knee."),
 ]
+
+
+def opened(path: Path, fps: float | None, salvage: bool, map_file: Path | None) -> "Motion":
+    """Return the motion of a clip, read as the options say."""
+    from ..batch import opened as read
+
+    return read(path, body=read_map(map_file), fps=fps, salvage=salvage)
 
 
 def read_map(path: Path | None) -> dict[str, str]:

@@ -2,7 +2,15 @@
 
 from collections.abc import Callable
 
+from .demo import demo
+from .diff import diff
+from .doctor import doctor
 from .edit import edit
+from .info import info
+from .pose import pose
+from .presets import presets
+from .render import render
 from .signature import with_parameters
 
-ALL: tuple[Callable[..., None], ...] = (with_parameters(edit),)
+COMMANDS: tuple[Callable[..., None], ...] = (demo, info, edit, presets, diff, render, pose, doctor)
+ALL = tuple(with_parameters(command) for command in COMMANDS)

@@ -29,8 +29,11 @@ Parts = Annotated[
 ]
 Span = Annotated[str, typer.Option(help="Only from one time to another, in seconds, e.g. 1.0,3.5.")]
 FootPlant = Annotated[
-    bool,
-    typer.Option("--foot-plant/--no-foot-plant", help="Put the feet back on the floor after a pose edit."),
+    bool | None,
+    typer.Option(
+        "--foot-plant/--no-foot-plant",
+        help="Put the feet back on the floor after pose edits (default: yes, or what --recipe says).",
+    ),
 ]
 Sidecar = Annotated[
     bool,
@@ -46,7 +49,7 @@ def edit(
     strength: Strength = 1.0,
     parts: Parts = "",
     span: Span = "",
-    foot_plant: FootPlant = True,
+    foot_plant: FootPlant = None,
     out: a.Out = None,
     force: a.Force = False,
     dry_run: a.DryRun = False,
@@ -103,7 +106,7 @@ def edit(
 
 
 def _recipe(
-    emotion: str | None, path: Path | None, flags: Mapping[str, Mapping[str, Any]], foot_plant: bool
+    emotion: str | None, path: Path | None, flags: Mapping[str, Mapping[str, Any]], foot_plant: bool | None
 ) -> "Recipe":
     """Return what is to be done, checked before a single clip is read."""
     from dataclasses import replace
@@ -122,6 +125,8 @@ def _recipe(
             "(`mien presets` lists emotions, `mien edit --help` all flags)"
         )
     recipe = resolve(what) if what else Recipe("edited", ())
+    if foot_plant is None and not path:
+        foot_plant = True
     steps = compose(recipe.steps, flags, foot_plant=foot_plant)
     for step in steps:
         pipeline.check(step)

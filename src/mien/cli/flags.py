@@ -15,7 +15,7 @@ from .signature import with_parameters
 _JOIN = "__"  # between edit and parameter in the name that a flag has inside
 
 # The order in which edits given by flags are done; an edit that is not named follows its kind.
-ORDER = ("trim", "resample", "mirror", "path_length", "timing", "posture", "in_place", "foot_plant")
+ORDER = ("trim", "resample", "mirror", "path_length", "timing", "posture", "foot_plant", "in_place")
 _LAST_OF_KIND = {"time": "mirror", "pose": "posture", "repair": "foot_plant"}
 
 
@@ -33,21 +33,22 @@ def with_flags(function: Callable[..., None]) -> Callable[..., None]:
 
 
 def compose(
-    steps: tuple[Step, ...], flags: Mapping[str, Mapping[str, Any]], *, foot_plant: bool
+    steps: tuple[Step, ...], flags: Mapping[str, Mapping[str, Any]], *, foot_plant: bool | None
 ) -> tuple[Step, ...]:
     """Return the steps of a recipe with those that flags mean.
 
     A flag of an edit that the recipe has changes the recipe's own step; any other adds a step, at its
-    place in ``ORDER``. ``foot_plant`` puts the feet back at the end when a pose is edited; without it
-    no repair of the feet is left.
+    place in ``ORDER``. ``foot_plant`` True puts the feet back after the poses are edited, False leaves
+    no repair of the feet, None leaves the recipe as it is.
     """
     made = [replace(step, parameters={**step.parameters, **flags.get(step.edit, {})}) for step in steps]
     for name in sorted(flags, key=_rank):
         if all(step.edit != name for step in made):
             _insert(made, Step(name, dict(flags[name])))
-    if not foot_plant:
+    if foot_plant is False:
         return tuple(step for step in made if step.edit != "foot_plant")
-    if any(EDITS[step.edit].kind == "pose" for step in made) and made[-1].edit != "foot_plant":
+    names = {step.edit for step in made}
+    if foot_plant and "foot_plant" not in names and any(EDITS[name].kind == "pose" for name in names):
         _insert(made, Step("foot_plant"))
     return tuple(made)
 
@@ -67,14 +68,21 @@ def _ordered() -> list[Edit]:
 
 
 def _options(edit: Edit) -> list[inspect.Parameter]:
-    """Return the flags of one edit; an edit that needs no values also gets a flag of its own."""
+    """Return the flags of one edit; an edit that does something as it is also gets a flag of its own."""
     found = [_option(edit, p) for p in edit.parameters.values()]
-    if edit.name == "foot_plant" or any(p.about.neutral is not None for p in edit.parameters.values()):
+    if not _works_as_it_is(edit):
         return found
     about = typer.Option(
         flag_name(edit.name), help=edit.summary, rich_help_panel=_panel(edit), show_default=False
     )
     return [_keyword(edit.name, "", bool | None, about), *found]
+
+
+def _works_as_it_is(edit: Edit) -> bool:
+    """Return whether the edit does something with its defaults: nothing to set, or none is neutral."""
+    scaled = [p for p in edit.parameters.values() if p.about.neutral is not None]
+    nothing_to_set = bool(scaled) and all(p.default != p.about.neutral for p in scaled)
+    return nothing_to_set or not edit.parameters
 
 
 def _option(edit: Edit, parameter: Parameter) -> inspect.Parameter:

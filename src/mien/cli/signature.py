@@ -14,15 +14,17 @@ def with_parameters(
 ) -> Callable[..., None]:
     """Return ``function`` with more parameters in its signature.
 
-    It gets their values, passed through ``collect``, as its parameter ``flags``.
+    If it takes ``flags``, it gets their values there, passed through ``collect``.
     """
     names = [p.name for p in parameters]
+    written = inspect.signature(function).parameters
+    own = [p for p in written.values() if p.name != FLAGS]
 
     def command(**given: Any) -> None:
-        values = {name: given.pop(name) for name in names}
-        function(**given, **{FLAGS: collect(values)})
+        if FLAGS in written:
+            given[FLAGS] = collect({name: given.pop(name) for name in names})
+        function(**given)
 
-    own = [p for p in inspect.signature(function).parameters.values() if p.name != FLAGS]
     command.__name__, command.__doc__ = function.__name__, _unwrapped(inspect.getdoc(function) or "")
     command.__annotations__ = {p.name: p.annotation for p in (*own, *parameters)}
     command.__signature__ = inspect.Signature([*own, *parameters])  # type: ignore[attr-defined]

@@ -1,0 +1,99 @@
+"""``mien render``: pictures and films of clips."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import MienError
+from . import arguments as a
+from .report import progress
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+    from ..motion import Motion
+
+PICTURES, FILMS = (".png",), (".gif", ".mp4")
+
+
+def render(
+    clips: a.Clips,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", help="A .png picture, a .gif or .mp4 film, or a folder for pictures."),
+    ] = None,
+    against: Annotated[
+        Path | None, typer.Option(help="Another clip, such as the original, drawn as a ghost.")
+    ] = None,
+    views: Annotated[
+        str, typer.Option(help="Seen from: front, side, left, right, back, three-quarter, top.")
+    ] = "",
+    poses: Annotated[int, typer.Option(min=1, max=60, help="Poses in a picture.")] = 8,
+    width: Annotated[int, typer.Option(min=200, max=8000, help="Width of a picture in pixels.")] = 1600,
+    travel: Annotated[
+        bool, typer.Option("--travel", help="In a picture, leave poses where they are in the room.")
+    ] = False,
+    ghost: Annotated[
+        bool, typer.Option("--ghost", help="In a film, show --against behind instead of beside.")
+    ] = False,
+    force: a.Force = False,
+    fps: a.Fps = None,
+    salvage: a.Salvage = False,
+    map_file: a.MapFile = None,
+) -> None:
+    """Draw clips: a strip of poses (PNG) or a film (GIF, MP4), with the original as a ghost.
+
+    mien render walk_sad.bvh --against walk.bvh -o walk_sad.png
+
+    mien render walk_sad.bvh --against walk.bvh -o walk_sad.gif
+    """
+    from .inputs import expand, outputs
+
+    found = expand(clips)
+    suffix = out.suffix.lower() if out and out.suffix and not out.is_dir() else ".png"
+    if suffix not in (*PICTURES, *FILMS):
+        raise MienError(f"{out}: a picture is {', '.join(PICTURES)}, a film {' or '.join(FILMS)}")
+    targets = outputs(found, out, label="strip", suffix=suffix, force=force)
+    other = a.opened(against, fps, salvage, map_file) if against else None
+    seen = [view.strip() for view in views.split(",") if view.strip()]
+    for clip, target in progress(zip(found, targets, strict=True), total=len(found), doing="drawing"):
+        motion = a.opened(clip.path, fps, salvage, map_file)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if suffix in FILMS:
+            _film(motion, target, other, seen, ghost, force)
+        else:
+            from ..render import strip
+
+            picture = strip(
+                motion,
+                against=other,
+                poses=poses,
+                views=seen or ("side", "front"),
+                width=width,
+                travel=travel,
+            )
+            save_picture(picture, target)
+        typer.echo(str(target))
+
+
+def _film(
+    motion: "Motion", target: Path, other: "Motion | None", views: list[str], ghost: bool, force: bool
+) -> None:
+    from ..render import animate
+
+    if len(views) > 1:
+        raise MienError("a film shows one view, such as --views three-quarter")
+    view = views[0] if views else "three-quarter"
+    animate(motion, target, against=other, beside=not ghost, view=view, force=force)
+
+
+def save_picture(picture: "Image", target: Path) -> None:
+    """Write a picture as PNG, whole or not at all."""
+    from io import BytesIO
+
+    from ..formats import files
+
+    data = BytesIO()
+    picture.save(data, "PNG")
+    files.write(target, data.getvalue())
