@@ -8,6 +8,8 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from ..errors import FormatError
 from ..motion import Motion, Skeleton
 from ..typing import Array
@@ -17,6 +19,7 @@ from .bvh_header import (
     POSITIONS,
     BvhLayout,
     decode,
+    depth_first,
     number,
     read_hierarchy,
     write_hierarchy,
@@ -46,6 +49,7 @@ def parse(data: bytes, where: str, *, fps: float | None = None, salvage: bool = 
 
 def render(motion: Motion) -> bytes:
     """Return the bytes of the BVH file that holds ``motion``."""
+    motion = _nested(motion)
     layout = _layout(motion)
     values = to_values(motion, layout.channels, decimals=max(layout.decimals, 6))
     return _stamp(layout, len(motion), motion.frame_time) + write_rows(
@@ -141,12 +145,31 @@ def _read_values(data: bytes, where: str, layout: BvhLayout, declared: int, *, s
     return values
 
 
+def _nested(motion: Motion) -> Motion:
+    """Return the motion with its joints in the order in which a file nests them."""
+    skeleton, order = motion.skeleton, np.array(depth_first(motion.skeleton.parents))
+    if (order == np.arange(len(order))).all():
+        return motion
+    place = np.argsort(order)  # where each joint goes
+    parents = skeleton.parents[order]
+    moved = replace(
+        skeleton,
+        names=tuple(skeleton.names[j] for j in order),
+        parents=np.where(parents < 0, -1, place[parents]),
+        offsets=skeleton.offsets[order],
+        end_parents=place[skeleton.end_parents],
+        layout=None,
+    )
+    rotations, translations = motion.rotations[:, order], motion.translations[:, order]
+    return motion.with_(skeleton=moved, rotations=rotations, translations=translations, source=None)
+
+
 def _layout(motion: Motion) -> BvhLayout:
     """Return the layout to write with: the file's own while the skeleton is the one it describes."""
     skeleton = motion.skeleton
     layout = skeleton.layout
     if not isinstance(layout, BvhLayout) or len(layout.channels) != len(skeleton):
-        return _new_layout(skeleton, _default_channels(motion))
+        return new_layout(skeleton, _default_channels(motion))
     return layout
 
 
@@ -157,7 +180,8 @@ def _default_channels(motion: Motion) -> tuple[tuple[str, ...], ...]:
     return tuple(POSITIONS + turns if moved else turns for moved in moves)
 
 
-def _new_layout(skeleton: Skeleton, channels: tuple[tuple[str, ...], ...]) -> BvhLayout:
+def new_layout(skeleton: Skeleton, channels: tuple[tuple[str, ...], ...]) -> BvhLayout:
+    """Return the layout of a file yet to be written, with these ``channels`` for each joint."""
     before = "\n".join([*write_hierarchy(skeleton, channels), "MOTION", "Frames: "]).encode()
     between = b"0\nFrame Time: "
     time = len(before) + len(between)
