@@ -101,7 +101,7 @@ def _feet(t: Array, speed: float, landing: float) -> dict[str, Foot]:
 
 
 def _rise(t: Array, speed: float, landing: float) -> Array:
-    """Return how far the toe joints are off the floor (T,): as far as the hips rise, less what the legs stretch.
+    """Return the height of the toe joints off the floor (T,): the hips' rise less what the legs stretch.
 
     The stretch begins as fast as the hips leave, so that the toes part from the floor at rest.
     """

@@ -30,8 +30,8 @@ class Arm:
     """Joint angles of an arm.
 
     At the shoulder: ``rotation`` about the upper arm (outwards), then ``abduction`` sideways, then
-    ``flexion`` forward (so abduction takes a forward arm outwards). ``pronation`` turns the hand inwards, ``wrist`` bends it to the palm;
-    ``shrug`` and ``reach`` take the shoulder up and forward.
+    ``flexion`` forward (so abduction takes a forward arm outwards). ``pronation`` turns the hand
+    inwards, ``wrist`` bends it to the palm; ``shrug`` and ``reach`` take the shoulder up and forward.
     """
 
     flexion: Curve = 0.0

@@ -1,12 +1,13 @@
 """A synthetic clip with what is known to be true of it, and how a pose becomes a clip."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypedDict, Unpack
 
 import numpy as np
 
 from ..errors import MienError, unknown
+from ..formats.bvh import new_layout
 from ..kinematics.fk import to_local
 from ..motion import Motion, Skeleton
 from ..rotations import quaternion
@@ -78,24 +79,18 @@ def times(seconds: float, form: Form) -> Array:
 
 def sample(name: str, figure: Figure, truth: Truth, **form: Unpack[Form]) -> Sample:
     """Write the moving figure down on a skeleton, in a unit, up axis and heading."""
-    unit, up = form.get("unit", "cm"), form.get("up", "y")
+    unit, up, heading = form.get("unit", "cm"), form.get("up", "y"), form.get("heading", 0.0)
     if unit not in METRES:
         raise MienError(unknown("unit", unit, METRES))
     if up not in UP:
         raise MienError(unknown("up axis", up, UP))
-    chosen, heading, scale = (
-        rig(form.get("skeleton", "standard22")),
-        form.get("heading", 0.0),
-        1.0 / METRES[unit],
-    )
-    upright = about(0, np.array(0.5 * np.pi if up == "z" else 0.0))
-    motion = Motion(
-        *_expressed(figure, chosen, scale, upright, heading),
-        frame_time=1.0 / form.get("fps", 60.0),
-        name=name,
-    )
+    if not np.isfinite(heading):
+        raise MienError(f"heading must be a finite angle in radians, got {heading}")
+    chosen, scale = rig(form.get("skeleton", "standard22")), 1.0 / METRES[unit]
+    upright = about(0, 0.5 * np.pi if up == "z" else 0.0)
+    motion = _motion(figure, chosen, scale, upright, heading)
     return Sample(
-        motion=motion,
+        motion=motion.with_(frame_time=1.0 / form.get("fps", 60.0), name=name),
         contacts=truth.contacts,
         angles=truth.angles,
         phases=truth.phases,
@@ -109,38 +104,33 @@ def sample(name: str, figure: Figure, truth: Truth, **form: Unpack[Form]) -> Sam
     )
 
 
-def _expressed(
-    figure: Figure, chosen: Rig, scale: float, upright: Array, heading: float
-) -> tuple[Skeleton, Array, Array]:
-    """Return skeleton, local rotations and translations.
+def _motion(figure: Figure, chosen: Rig, scale: float, upright: Array, heading: float) -> Motion:
+    """Return the motion on a rig, one second a frame.
 
     With ``U`` from y-up to the clip's up axis, ``H`` the heading, ``Q`` the segment's rotation and ``B``
     the joint's frame in it, the joint's world rotation is ``U H Q B U^-1``: where ``Q`` undoes ``B``
-    the skeleton is in its rest pose, all axes parallel to the world's.
+    the joint's axes are the world's, as in the rest pose.
     """
     down = quaternion.conjugate(upright)
     frames = quaternion.multiply(chosen.frames, down)
-    before = quaternion.multiply(upright, about(1, np.array(heading)))
-    still = quaternion.IDENTITY
-    segments = np.concatenate([figure.rotations, np.broadcast_to(still, (len(figure.hips), 1, 4))], axis=1)
-    world = quaternion.multiply(before, quaternion.multiply(segments[:, chosen.segments], frames))
-    grounded = chosen.segments < 0
-    world[:, grounded] = still
-    frames = np.where(grounded[:, None], quaternion.conjugate(upright), frames)
+    turn = quaternion.multiply(upright, about(1, heading))
+    world = quaternion.multiply(turn, quaternion.multiply(figure.rotations[:, chosen.segments], frames))
+    world[:, chosen.segments < 0] = quaternion.IDENTITY
+    frames[chosen.segments < 0] = down
     skeleton = _skeleton(chosen, frames, scale)
-    hips = scale * quaternion.rotate(before, figure.hips)
-    rotations, _ = to_local(world, np.zeros((*world.shape[:2], 3)), chosen.parents)
-    translations = np.broadcast_to(skeleton.offsets, (*world.shape[:2], 3)).copy()
-    translations[:, list(chosen.names).index(chosen.roles["hips"])] = hips
-    return skeleton, quaternion.continuous(rotations), translations
+    rotations, translations = to_local(world, np.zeros((*world.shape[:2], 3)), chosen.parents)
+    translations[:] = skeleton.offsets
+    translations[:, chosen.names.index(chosen.roles["hips"])] = scale * quaternion.rotate(turn, figure.hips)
+    return Motion(skeleton, quaternion.continuous(rotations), translations, frame_time=1.0)
 
 
 def _skeleton(chosen: Rig, frames: Array, scale: float) -> Skeleton:
-    bones = chosen.points - np.where(
-        chosen.parents[:, None] >= 0, chosen.points[chosen.parents], chosen.points
-    )
-    into = quaternion.conjugate(frames)
-    offsets = scale * quaternion.rotate(into[np.maximum(chosen.parents, 0)], bones)
-    tips = chosen.end_points - chosen.points[chosen.end_parents]
-    ends = scale * quaternion.rotate(into[chosen.end_parents], tips)
-    return Skeleton(chosen.names, chosen.parents, offsets, chosen.end_parents, ends)
+    """Return the skeleton: bones of the upright stance seen from the axes of the joint they hang on."""
+    into = scale * quaternion.to_matrix(quaternion.conjugate(frames))
+    parents, ends = chosen.parents, chosen.end_parents
+    bones = chosen.points - chosen.points[parents]
+    bones[parents < 0] = 0.0
+    offsets = np.einsum("jab,jb->ja", into[parents], bones)
+    tips = np.einsum("eab,eb->ea", into[ends], chosen.end_points - chosen.points[ends])
+    skeleton = Skeleton(chosen.names, parents, offsets, ends, tips)
+    return replace(skeleton, layout=new_layout(skeleton, chosen.channels))

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import MienError, unknown
+from ..formats.bvh_header import depth_first
 from ..rotations import quaternion
 from ..typing import Array, Integers
 from .figure import INDEX, PARENTS, SEGMENTS, SIDES, STANCE, STATURE
@@ -25,7 +26,8 @@ class Rig:
 
     ``segments`` (J): the figure's segment that each joint follows (-1: the ground). ``points`` (J, 3)
     and ``end_points`` (E, 3): places in the upright stance, metres. ``frames`` (J, 4): the joint's
-    axes in the axes of its segment. ``roles``: role -> joint name.
+    axes in the axes of its segment. ``roles``: role -> joint name. ``channels`` (J): the columns of a
+    BVH file.
     """
 
     names: tuple[str, ...]
@@ -36,25 +38,45 @@ class Rig:
     end_parents: Integers
     end_points: Array
     roles: Mapping[str, str]
+    channels: tuple[tuple[str, ...], ...]
 
 
 Joint = tuple[str, str, str, Array]  # name, parent, segment, place in the upright stance
 
 
 def _rig(
-    joints: Sequence[Joint], ends: Sequence[tuple[str, Array]], roles: Mapping[str, str], frames: Array
+    joints: Sequence[Joint],
+    ends: Sequence[tuple[str, Array]],
+    roles: Mapping[str, str],
+    frames: Array,
+    *,
+    root: str,
+    others: str,
 ) -> Rig:
+    """Return the rig with its joints in the order a file nests them.
+
+    ``root`` and ``others`` spell the channels: lower case positions, upper case rotations.
+    """
+    listed = [j[0] for j in joints]
+    order = depth_first(np.array([listed.index(j[1]) if j[1] else -1 for j in joints]))
+    joints = [joints[i] for i in order]
     names = [j[0] for j in joints]
+    ends = sorted(ends, key=lambda end: names.index(end[0]))
     return Rig(
         names=tuple(names),
         parents=np.array([names.index(j[1]) if j[1] else -1 for j in joints]),
         segments=np.array([INDEX.get(j[2], -1) for j in joints]),
         points=np.array([j[3] for j in joints]),
-        frames=frames,
+        frames=frames[order],
         end_parents=np.array([names.index(e[0]) for e in ends]),
         end_points=np.array([e[1] for e in ends]),
         roles=roles,
+        channels=(_channels(root), *[_channels(others)] * (len(names) - 1)),
     )
+
+
+def _channels(letters: str) -> tuple[str, ...]:
+    return tuple(f"{c.upper()}{'rotation' if c.isupper() else 'position'}" for c in letters)
 
 
 def _rest(joints: Sequence[Joint], arms: float, legs: float = 0.0) -> Array:
@@ -110,7 +132,7 @@ def _standard22() -> Rig:
     ends = [("Head", STANCE["head_tip"])]
     for long, side in _SHORT.items():
         ends += [(f"{long}Hand", STANCE[f"{side}_hand_tip"]), (f"{long}ToeBase", STANCE[f"{side}_toe_tip"])]
-    return _rig(joints, ends, {r: names[r] for r in _ROLES}, _rest(joints, 90.0))
+    return _rig(joints, ends, {r: names[r] for r in _ROLES}, _rest(joints, 90.0), root="xyzZXY", others="ZXY")
 
 
 def _above(segment: str) -> str:
@@ -146,7 +168,7 @@ def _capture31() -> Rig:
         parts = {"collar": "Shoulder", "shoulder": "Arm", "elbow": "ForeArm", "wrist": "Hand"}
         parts |= {"hip": "UpLeg", "knee": "Leg", "ankle": "Foot", "toe": "ToeBase"}
         roles |= {f"{side}_{k}": f"{long}{v}" for k, v in parts.items()}
-    return _rig(joints, ends, roles, _rest(joints, 45.0, 5.0))
+    return _rig(joints, ends, roles, _rest(joints, 45.0, 5.0), root="xyzZYX", others="ZYX")
 
 
 def _capture_arm(joints: list[Joint], ends: list[tuple[str, Array]], long: str, side: str) -> None:
@@ -197,7 +219,7 @@ def _poser43() -> Rig:
                 _fingers(joints, ends, side)
         ends.append((names["toe"], STANCE[f"{side}_toe_tip"]))
         roles |= {f"{side}_{part}": name for part, name in names.items()}
-    return _rig(joints, ends, roles, _rest(joints, 0.0))
+    return _rig(joints, ends, roles, _rest(joints, 0.0), root="YXZxyz", others="XYZ")
 
 
 def _fingers(joints: list[Joint], ends: list[tuple[str, Array]], side: str) -> None:
@@ -229,7 +251,14 @@ def _engine23() -> Rig:
             (names[f"{side}_{part}"], STANCE[f"{side}_{tip}_tip"])
             for part, tip in (("wrist", "hand"), ("toe", "toe"))
         ]
-    return _rig(joints, ends, {r: names[r] for r in _ROLES}, _along_bones(joints, ends))
+    return _rig(
+        joints,
+        ends,
+        {r: names[r] for r in _ROLES},
+        _along_bones(joints, ends),
+        root="xyzYZX",
+        others="xyzYZX",
+    )
 
 
 RIGS: Mapping[str, Callable[[], Rig]] = {
