@@ -12,11 +12,9 @@ import numpy as np
 
 from ..errors import BodyError, unknown
 from ..motion import Motion
-from ..rotations import quaternion
-from ..typing import Array
+from ..typing import Array, Integers
 from . import measures, stance, topology
 from . import roles as naming
-from .fk import fk
 from .roles import ARM as ARM
 from .roles import LEG as LEG
 from .roles import OPTIONAL as OPTIONAL
@@ -24,6 +22,8 @@ from .roles import ROLES as ROLES
 from .roles import SIDES as SIDES
 from .roles import TRUNK as TRUNK
 from .roles import read_map as read_map
+from .tree import Tree
+from .tree import tree as make_tree
 
 # Names a person may give to --parts; each is a set of the five limbs and the torso.
 PARTS: Mapping[str, tuple[str, ...]] = {
@@ -115,42 +115,45 @@ _FRAMES = 64  # evenly spaced frames that the shape is read from
 def _find(motion: Motion, chosen: Mapping[str, str]) -> dict[str, Any]:
     """Return the fields of the body: first the roles, then what follows from them."""
     skeleton = motion.skeleton
-    pick = np.unique(np.linspace(0, len(motion) - 1, min(len(motion), _FRAMES)).round().astype(int))
-    local, moved = motion.rotations[pick], motion.translations[pick]
-    world, points = fk(local, moved, skeleton.parents)
-    ends = quaternion.rotate(world[:, skeleton.end_parents], skeleton.end_offsets)
-    tree = topology.tree(skeleton, points, points[:, skeleton.end_parents] + ends, _turning(local))
+    pick = measures.evenly(len(motion), _FRAMES)
+    local, moved = motion.rotations[pick], _shape(motion, pick)
+    tree = make_tree(skeleton, local, moved)
     found = topology.find(tree) | naming.chosen(skeleton, chosen)
     roles = {role: found[role] for role in ROLES if role in found}
     naming.require(skeleton, roles)
-    offsets = np.median(moved, axis=0)
-    shape = _chains(tree, roles)
-    up, forward, neutral = stance.neutral(skeleton, local, world, points, offsets, roles)
-    leg = measures.leg_length(points, roles)
-    sole = measures.soles(skeleton, neutral, offsets, roles, up, leg)
+    chains = _chains(tree, roles)
+    stood = stance.neutral(skeleton, tree, local, np.median(moved, axis=0), roles)
+    leg = measures.leg_length(tree, roles)
+    sole = measures.soles(skeleton, stood.heights, roles, leg)
     return {
         "roles": roles,
-        **shape,
+        **chains,
         "limbs": naming.limbs(roles),
-        "up": up,
-        "forward": forward,
+        "up": stood.up,
+        "forward": stood.forward,
         "leg_length": leg,
-        "height": measures.height(skeleton, neutral, offsets, roles, up, leg, sole),
-        "floor": measures.floor(motion, roles, up, sole),
+        "height": measures.height(skeleton, stood.heights, roles, leg, sole),
+        "floor": measures.floor(motion, roles, stood.up, sole),
         "metres_per_unit": measures.metres_per_unit(leg),
-        "neutral": neutral,
-        "parts_of": naming.parts(tree, roles, shape["neck"]),
+        "neutral": stood.rotations,
+        "parts_of": naming.parts(tree, roles, chains["neck"]),
     }
 
 
-def _chains(tree: topology.Tree, roles: Mapping[str, int]) -> dict[str, tuple[int, ...]]:
+def _chains(tree: Tree, roles: Mapping[str, int]) -> dict[str, tuple[int, ...]]:
     """Return the spine, hips to chest, and the neck, chest to head."""
     top = roles.get("chest", roles["hips"])
     neck = tree.between(top, roles["head"])[:-1] if "head" in roles else []
     return {"spine": tuple(tree.between(roles["hips"], top)), "neck": tuple(neck)}
 
 
-def _turning(rotations: Array) -> Array:
-    """Return the largest angle (J,) between a joint's rotation and its first, radians."""
-    cosine = np.abs(np.einsum("tji,ji->tj", rotations, rotations[0]))
-    return np.asarray(2.0 * np.arccos(np.minimum(cosine, 1.0)).max(axis=0))
+def _shape(motion: Motion, pick: Integers) -> Array:
+    """Return the translations of some frames, with the offset where a joint sits on its parent instead.
+
+    Some exporters write zeros into position channels that they mean to be added to the offset; a body
+    folded into one point would have no shape to read.
+    """
+    moved, offsets = motion.translations[pick], motion.skeleton.offsets
+    size, least = np.linalg.norm(offsets, axis=-1), np.linalg.norm(moved, axis=-1).max(axis=0)
+    folded = (least < 1e-3 * size) & (motion.skeleton.parents >= 0)
+    return np.where(folded[:, None], offsets, moved) if folded.any() else moved

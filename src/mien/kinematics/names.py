@@ -2,21 +2,21 @@
 
 Exporters agree on words, not on meaning: a *shoulder* is the collar bone in one scheme and the upper
 arm in the next, a *foot* the ankle or the toes. So a name gives a set of possible roles, and the
-shape of the skeleton decides (``mien.kinematics.topology``).
+shape of the skeleton decides (``topology``, ``limbs``).
 """
 
 import re
+from functools import lru_cache
 
 SIDE_WORDS = {"left": "left", "lft": "left", "l": "left", "right": "right", "rgt": "right", "r": "right"}
 SIDE_SIGNS = {"左": "left", "右": "right"}
 
 # Words that say nothing about the role: rigs, exporters, kinds of node.
-_NOISE = frozenset(
-    (
-        "joint jnt jt bone bn skel skeleton base cc rl mixamorig character bip biped def org fk ik rig root "
-        "mot b sk ctrl"
-    ).split()  # noqa: SIM905 - a list of words reads better as words
+_NOISE = (
+    "joint jnt jt bone bn skel skeleton base cc rl mixamorig character bip biped def org fk ik rig root mot "
+    "b sk ctrl"
 )
+_SILENT = frozenset(_NOISE.split())
 
 _ROLE_WORDS = {
     "hips": "hips hip pelvis waist lowerbody 下半身 腰 センター",
@@ -49,6 +49,7 @@ _EXTRA = re.compile(
 _SPLIT = re.compile(r"[A-Z]+(?=[A-Z][a-z])|[A-Z]?[a-z]+|[A-Z]+|[^\W\d_a-zA-Z]+")
 
 
+@lru_cache(maxsize=4096)
 def words(name: str) -> tuple[str, tuple[str, ...]]:
     """Return the side (``left``, ``right`` or ``""``) and the words of a name, lower case, in order."""
     bare = re.split(r"[:|]", name)[-1]
@@ -59,7 +60,7 @@ def words(name: str) -> tuple[str, tuple[str, ...]]:
     for word in (w.lower() for w in _SPLIT.findall(bare)):
         if word in SIDE_WORDS and not side:
             side = SIDE_WORDS[word]
-        elif word not in _NOISE:
+        elif word not in _SILENT:
             found.append(word)
     return _peel(side, found)
 
@@ -80,17 +81,20 @@ def side_of(name: str) -> str:
     return words(name)[0]
 
 
+@lru_cache(maxsize=4096)
 def key_of(name: str) -> str:
     """Return a name without its side, for comparing the two sides: digits are kept."""
     return "".join(words(name)[1]) + "".join(re.findall(r"\d+", name))
 
 
-def roles_of(name: str) -> set[str]:
+@lru_cache(maxsize=4096)
+def roles_of(name: str) -> frozenset[str]:
     """Return the roles that a joint of this name may play, without side; empty if it says nothing."""
     key = "".join(words(name)[1])
-    return set() if _EXTRA.search(key) else ROLES_OF.get(key, set())
+    return frozenset() if _EXTRA.search(key) else frozenset(ROLES_OF.get(key, ()))
 
 
+@lru_cache(maxsize=4096)
 def is_extra(name: str) -> bool:
     """Say whether the name is that of a twist bone, finger, tip, eye or the like."""
     return _EXTRA.search("".join(words(name)[1])) is not None

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..errors import BodyError, unknown
 from ..motion import Skeleton
-from .topology import Tree
+from .tree import Tree
 
 SIDES = ("left", "right")
 ARM, LEG = ("collar", "shoulder", "elbow", "wrist"), ("hip", "knee", "ankle", "toe")

@@ -1,11 +1,12 @@
 """Up, forward and the neutral stance of a body whose roles are known.
 
 The neutral stance is the rest pose (all local rotations zero) stood upright with straight legs and
-the arms at the sides, where the rest pose is a body at all; else the calmest upright frames give
-what it starts from. So two clips of one actor have the same stance, and posture changes transfer.
+the arms at the sides, where the rest pose is a body at all; else the straightest frames of the clip
+give what it starts from. So two clips of one actor have the same stance, and posture transfers.
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -13,50 +14,72 @@ import numpy as np
 from ..motion import Skeleton
 from ..rotations import quaternion
 from ..typing import Array
-from .fk import fk
+from .fk import fk, to_local
+from .tree import Tree, unit
 
 Roles = Mapping[str, int]
 SIDES = ("left", "right")
 
 ARM_OUT = np.radians(8.0)  # upper arms off the vertical, so that hands pass the thighs
-ELBOW_BEND = np.radians(10.0)  # relaxed elbows are never straight
+ELBOW_BEND = np.radians(10.0)  # relaxed elbows are never quite straight
+STILL = 0.01  # radians: a joint that turns less in a whole clip is part of the file's axes
+NEAR_AXIS = np.radians(15.0)  # rest poses this near to a world axis mean that axis
 
 
-def neutral(
-    skeleton: Skeleton, local: Array, world: Array, points: Array, offsets: Array, roles: Roles
-) -> tuple[Array, Array, Array]:
-    """Return the up axis, the direction the neutral stance faces, and its local rotations (J, 4).
+@dataclass(frozen=True, eq=False)
+class Stance:
+    """``up`` and ``forward`` (3,), ``rotations`` (J, 4) local, ``heights`` (N,) of joints and end sites."""
 
-    ``local``, ``world`` (F, J, 4) and ``points`` (F, J, 3) are some frames of the clip, ``offsets``
-    (J, 3) the typical translations.
+    up: Array
+    forward: Array
+    rotations: Array
+    heights: Array
+
+
+def neutral(skeleton: Skeleton, body: Tree, local: Array, offsets: Array, roles: Roles) -> Stance:
+    """Return the neutral stance.
+
+    ``local`` (F, J, 4) are the rotations of the frames that ``body`` was made of, ``offsets`` (J, 3)
+    the typical translations.
     """
-    start = np.tile(quaternion.IDENTITY, (len(skeleton), 1))
+    start = _rest(body, local, roles["hips"])
     rest = fk(start[None], offsets[None], skeleton.parents)[1][0]
+    points = np.moveaxis(body.points[: len(skeleton)], 0, 1)
     standing = is_body(rest, roles)
     up = up_axis(points, rest if standing else None, roles)
+    forward = _near_axis(_facing(rest, roles, up)) if standing else usual_front(up)
     if not standing:
-        start = calm_pose(local, world, points, roles, up)
-        rest = fk(start[None], offsets[None], skeleton.parents)[1][0]
-    forward = forward_axis(rest, roles, up) if standing else usual_front(up)
-    return up, forward, stand(start, offsets, skeleton.parents, roles, up, forward)
+        start = calm_pose(local, body.world, points, roles, up)
+    pose = _Pose(start, offsets, skeleton)
+    own_up = _near_axis(body_up(rest, roles)) if standing else _trunk(pose.points, roles)
+    stand(pose, roles, own_up, up, forward)
+    return Stance(up, forward, pose.local(), pose.heights(up))
+
+
+def _rest(body: Tree, local: Array, hips: int) -> Array:
+    """Return zero rotations (J, 4), but those above the hips that stand still as they are: file axes."""
+    start = np.tile(quaternion.IDENTITY, (len(body.names), 1))
+    above = [j for j in body.ancestors(hips)[1:] if body.turning[j] < STILL]
+    start[above] = local[0, above]
+    return start
 
 
 def body_up(points: Array, roles: Roles) -> Array:
-    """Return the unit direction (F, 3) from the ankles over the hips to the shoulders in each frame."""
+    """Return the unit direction (..., 3) from the ankles over the hips to the shoulders."""
     ankles, hips, shoulders = (_middle(points, roles, r) for r in ("ankle", "hip", "shoulder"))
-    return _unit(_unit(hips - ankles) + _unit(shoulders - hips))
+    return unit(unit(hips - ankles) + unit(shoulders - hips))
 
 
 def up_axis(points: Array, rest: Array | None, roles: Roles) -> Array:
     """Return the world axis (unit, one of +-X, +-Y, +-Z) that the body in ``points`` (F, J, 3) stands along.
 
     The mean direction of the body over the clip decides; where it lies or turns over, the rest pose
-    (J, 3; None if it is no body) and the habit of files (Y, then Z) do.
+    (J, 3; None if it is no body) and the habit of files (Y, then Z, hardly ever X or down) do.
     """
     mean = body_up(points, roles).mean(axis=0)
     score = np.stack([mean, -mean], axis=1)  # (axis, sign)
     if rest is not None:
-        standing = body_up(rest[None], roles)[0]
+        standing = body_up(rest, roles)
         score += 0.5 * np.stack([standing, -standing], axis=1)
     score += np.array([[-0.3, -0.4], [0.3, -0.3], [0.2, -0.3]])
     axis, sign = np.unravel_index(int(np.argmax(score)), score.shape)
@@ -66,126 +89,121 @@ def up_axis(points: Array, rest: Array | None, roles: Roles) -> Array:
 
 
 def is_body(points: Array, roles: Roles) -> bool:
-    """Say whether a pose (J, 3) is a standing body: legs along the trunk, sides apart, arms not on the head.
+    """Say whether a pose (J, 3) is a standing body: legs along the trunk, sides apart, arms not overhead.
 
     Rest poses that lay every bone along one axis are no body.
     """
-    up = body_up(points[None], roles)[0]
-    across = [_unit(points[roles[f"left_{r}"]] - points[roles[f"right_{r}"]]) for r in ("hip", "shoulder")]
-    trunk = _unit(_middle(points, roles, "shoulder") - _middle(points, roles, "hip"))
-    legs = [
-        _unit(points[roles[f"{s}_{a}"]] - points[roles[f"{s}_{b}"]])
-        for s in SIDES
-        for a, b in pairwise(("hip", "knee", "ankle"))
+    up, trunk = body_up(points, roles), _trunk(points, roles)
+    across = [unit(points[roles[f"left_{r}"]] - points[roles[f"right_{r}"]]) for r in ("hip", "shoulder")]
+    bones = [
+        unit(points[roles[f"{side}_{a}"]] - points[roles[f"{side}_{b}"]])
+        for side in SIDES
+        for a, b in (*pairwise(("hip", "knee", "ankle")), ("shoulder", "elbow"))
     ]
-    upright = min(float(up @ d) for d in (trunk, *legs)) > 0.8
-    sideways = max(abs(float(up @ d)) for d in across) < 0.3 and float(across[0] @ across[1]) > 0.8
-    arms = [_unit(points[roles[f"{s}_elbow"]] - points[roles[f"{s}_shoulder"]]) for s in SIDES]
-    return upright and sideways and max(float(up @ d) for d in arms) < 0.5
+    steep = [float(up @ b) for b in bones]
+    legs, arms = steep[0:2] + steep[3:5], [steep[2], steep[5]]
+    upright = min(float(up @ trunk), *legs) > 0.8 and min(arms) > -0.5
+    return upright and max(abs(float(up @ d)) for d in across) < 0.3 and float(across[0] @ across[1]) > 0.8
 
 
 def usual_front(up: Array) -> Array:
-    """Return where files with this up axis have their figures face: +Z, with Z up -Y, with X up +Z."""
-    return np.array([0.0, 0.0, 1.0]) if abs(up[2]) < 0.5 else np.array([0.0, -1.0, 0.0])
+    """Return where files with this up axis have their figures face: +Z, but -Y where Z is up."""
+    return np.array([0.0, -1.0, 0.0]) if abs(up[2]) > 0.5 else np.array([0.0, 0.0, 1.0])
 
 
-def forward_axis(points: Array, roles: Roles, up: Array) -> Array:
-    """Return the horizontal unit direction a pose (J, 3) faces: right to left, a quarter turn about up."""
-    across = _middle_side(points, roles)
-    return _unit(np.cross(across, up))
+def _facing(points: Array, roles: Roles, up: Array) -> Array:
+    """Return the horizontal unit direction (..., 3) of the hips: right to left, a quarter turn about up."""
+    return unit(np.cross(points[..., roles["left_hip"], :] - points[..., roles["right_hip"], :], up))
 
 
-def _middle_side(points: Array, roles: Roles) -> Array:
-    return sum(
-        (
-            _unit(points[..., roles[f"left_{r}"], :] - points[..., roles[f"right_{r}"], :])
-            for r in ("hip", "shoulder")
-        ),
-        start=np.zeros(3),
-    )
+def _near_axis(direction: Array) -> Array:
+    """Return the world axis if a direction is within 15 degrees of one, else the direction itself."""
+    axis = np.zeros(3)
+    biggest = int(np.argmax(np.abs(direction)))
+    axis[biggest] = np.sign(direction[biggest])
+    return axis if float(direction @ axis) > np.cos(NEAR_AXIS) else direction
 
 
-def stand(
-    start: Array, offsets: Array, parents: np.ndarray, roles: Roles, up: Array, forward: Array
-) -> Array:
-    """Return ``start`` (J, 4) stood upright: facing ``forward``, legs straight down, arms at the sides."""
-    pose = _Pose(np.array(start), offsets, parents)
-    pose.turn_whole(roles["hips"], _to_front(pose.points, roles, up, forward))
-    feet = {s: pose.world[roles[f"{s}_ankle"]].copy() for s in SIDES}
-    left = np.cross(up, forward)
-    for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
-        hip, knee, ankle = (roles[f"{side}_{r}"] for r in ("hip", "knee", "ankle"))
-        pose.aim(hip, knee, -up)
-        pose.aim(knee, ankle, -up)
-        pose.set_world(ankle, feet[side])
-        shoulder, elbow = roles[f"{side}_shoulder"], roles[f"{side}_elbow"]
-        pose.aim(shoulder, elbow, -np.cos(ARM_OUT) * up + sign * np.sin(ARM_OUT) * left)
-        if f"{side}_wrist" in roles:
-            upper = _unit(pose.points[elbow] - pose.points[shoulder])
-            pose.aim(elbow, roles[f"{side}_wrist"], np.cos(ELBOW_BEND) * upper + np.sin(ELBOW_BEND) * forward)
-    return pose.local
-
-
-def _to_front(points: Array, roles: Roles, up: Array, forward: Array) -> Array:
-    """Return the rotation that takes the body's own up and left to ``up`` and ``up x forward``."""
-    own_up = body_up(points[None], roles)[0]
-    tip = quaternion.between(own_up, up)
-    across = quaternion.rotate(tip, _middle_side(points, roles))
-    facing = np.cross(across, up)
-    angle = np.arctan2(np.cross(facing, forward) @ up, facing @ forward)
-    return quaternion.multiply(quaternion.exp(angle * up), tip)
-
-
-class _Pose:
-    """One pose whose joints can be turned in world axes; children follow."""
-
-    def __init__(self, local: Array, offsets: Array, parents: np.ndarray) -> None:
-        self.local, self.offsets, self.parents = local, offsets, parents
-        self.update()
-
-    def update(self) -> None:
-        world, points = fk(self.local[None], self.offsets[None], self.parents)
-        self.world, self.points = world[0], points[0]
-
-    def set_world(self, joint: int, rotation: Array) -> None:
-        parent = int(self.parents[joint])
-        above = self.world[parent] if parent >= 0 else quaternion.IDENTITY
-        self.local[joint] = quaternion.multiply(quaternion.conjugate(above), rotation)
-        self.update()
-
-    def turn_whole(self, joint: int, turn: Array) -> None:
-        self.set_world(joint, quaternion.multiply(turn, self.world[joint]))
-
-    def aim(self, joint: int, target: int, direction: Array) -> None:
-        """Turn ``joint`` by the smallest rotation that brings ``target`` into ``direction`` from it."""
-        here = self.points[target] - self.points[joint]
-        self.turn_whole(joint, quaternion.between(here, direction))
-
-
-def calm_pose(rotations: Array, world: Array, points: Array, roles: Roles, up: Array) -> Array:
-    """Return the mean local rotations (J, 4) of the quarter of the frames that stand straightest."""
-    trunk = _unit(_middle(points, roles, "shoulder") - _middle(points, roles, "hip"))
-    score = trunk @ up
-    for side in SIDES:
-        hip, knee, ankle = (points[:, roles[f"{side}_{r}"]] for r in ("hip", "knee", "ankle"))
-        shoulder, elbow = (points[:, roles[f"{side}_{r}"]] for r in ("shoulder", "elbow"))
-        score = (
-            score + _unit(hip - knee) @ up + _unit(knee - ankle) @ up + 0.5 * (_unit(shoulder - elbow) @ up)
-        )
-    count = max(1, len(points) // 4)
-    best = np.sort(np.argsort(-score, kind="stable")[:count])
-    facing = np.cross(_middle_side(points[best], roles), up)
-    yaw = np.arctan2(np.cross(facing[:1], facing) @ up, facing @ facing[0])
-    chosen = np.array(rotations[best])
-    hips = roles["hips"]
-    chosen[:, hips] = quaternion.multiply(quaternion.exp(-yaw[:, None] * up), world[best, hips])
-    sign = np.where(np.einsum("fji,ji->fj", chosen, chosen[0]) < 0, -1.0, 1.0)
-    return quaternion.normalise((chosen * sign[..., None]).sum(axis=0))
+def _trunk(points: Array, roles: Roles) -> Array:
+    return unit(_middle(points, roles, "shoulder") - _middle(points, roles, "hip"))
 
 
 def _middle(points: Array, roles: Roles, role: str) -> Array:
     return 0.5 * (points[..., roles[f"left_{role}"], :] + points[..., roles[f"right_{role}"], :])
 
 
-def _unit(v: Array) -> Array:
-    return v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-12)
+def calm_pose(local: Array, world: Array, points: Array, roles: Roles, up: Array) -> Array:
+    """Return the mean local rotations (J, 4) of the quarter of the frames that stand straightest.
+
+    Local and world rotations (F, J, 4), positions (F, J, 3). The hips come in world axes, all turned
+    to the heading of one frame.
+    """
+    score = _trunk(points, roles) @ up
+    for side in SIDES:
+        for a, b, weight in (("hip", "knee", 1.0), ("knee", "ankle", 1.0), ("shoulder", "elbow", 0.5)):
+            bone = points[:, roles[f"{side}_{a}"]] - points[:, roles[f"{side}_{b}"]]
+            score = score + weight * (unit(bone) @ up)
+    best = np.sort(np.argsort(-score, kind="stable")[: max(1, len(points) // 4)])
+    chosen, hips = np.array(local[best]), roles["hips"]
+    facing = _facing(points[best], roles, up)
+    yaw = np.arctan2(np.cross(facing[:1], facing) @ up, facing @ facing[0])
+    chosen[:, hips] = quaternion.multiply(quaternion.exp(-yaw[:, None] * up), world[best, hips])
+    sign = np.where(np.einsum("fji,ji->fj", chosen, chosen[0]) < 0, -1.0, 1.0)
+    return quaternion.normalise((chosen * sign[..., None]).sum(axis=0))
+
+
+class _Pose:
+    """One pose in world axes; turning a joint takes along what hangs on it."""
+
+    def __init__(self, local: Array, offsets: Array, skeleton: Skeleton) -> None:
+        world, points = fk(local[None], offsets[None], skeleton.parents)
+        self.world, self.points, self.skeleton = world[0], points[0], skeleton
+
+    def turn(self, joint: int, rotation: Array) -> None:
+        """Turn a joint by a rotation in world axes."""
+        below, pivot = self.skeleton.descendants(joint), self.points[joint].copy()
+        self.world[below] = quaternion.multiply(rotation, self.world[below])
+        self.points[below] = pivot + quaternion.rotate(rotation, self.points[below] - pivot)
+
+    def aim(self, joint: int, target: int, direction: Array) -> None:
+        """Turn ``joint`` by the smallest rotation that brings ``target`` into ``direction`` from it."""
+        self.turn(joint, quaternion.between(self.points[target] - self.points[joint], direction))
+
+    def local(self) -> Array:
+        """Return the local rotations (J, 4)."""
+        return to_local(self.world[None], self.points[None], self.skeleton.parents)[0][0]
+
+    def heights(self, up: Array) -> Array:
+        """Return the heights (J + E,) of joints and end sites along ``up``."""
+        parents = self.skeleton.end_parents
+        ends = self.points[parents] + quaternion.rotate(self.world[parents], self.skeleton.end_offsets)
+        return np.concatenate([self.points, ends]) @ up
+
+
+def stand(pose: _Pose, roles: Roles, own_up: Array, up: Array, forward: Array) -> None:
+    """Stand a pose upright: ``own_up`` along ``up``, facing ``forward``, legs straight down, arms down."""
+    pose.turn(roles["hips"], quaternion.between(own_up, up))
+    facing = _facing(pose.points, roles, up)
+    yaw = np.arctan2(np.cross(facing, forward) @ up, facing @ forward)
+    pose.turn(roles["hips"], quaternion.exp(yaw * up))
+    for side, outward in zip(SIDES, (1.0, -1.0), strict=True):
+        _leg_down(pose, roles, side, up)
+        _arm_down(pose, roles, side, up, forward, outward * np.cross(up, forward))
+
+
+def _leg_down(pose: _Pose, roles: Roles, side: str, up: Array) -> None:
+    """Straighten a leg; the foot keeps the way it stood."""
+    hip, knee, ankle = (roles[f"{side}_{r}"] for r in ("hip", "knee", "ankle"))
+    foot = pose.world[ankle].copy()
+    pose.aim(hip, knee, -up)
+    pose.aim(knee, ankle, -up)
+    pose.turn(ankle, quaternion.multiply(foot, quaternion.conjugate(pose.world[ankle])))
+
+
+def _arm_down(pose: _Pose, roles: Roles, side: str, up: Array, forward: Array, outward: Array) -> None:
+    """Lower an arm to the side, the forearm a little to the front."""
+    shoulder, elbow, wrist = (roles.get(f"{side}_{r}", -1) for r in ("shoulder", "elbow", "wrist"))
+    down = np.sin(ARM_OUT) * outward - np.cos(ARM_OUT) * up
+    pose.aim(shoulder, elbow, down)
+    if wrist >= 0:
+        pose.aim(elbow, wrist, np.cos(ELBOW_BEND) * down + np.sin(ELBOW_BEND) * forward)
