@@ -18,7 +18,7 @@ from ..kinematics.body import SIDES, Body
 from ..kinematics.fk import world
 from ..kinematics.heading import heading_rotation, hips_frame
 from ..kinematics.poses import Pose, named_pose, neutral_world
-from ..kinematics.posing import Method, add_pose
+from ..kinematics.posing import Method, add_pose, soft_stop
 from ..motion import Motion
 from ..rotations import quaternion
 from ..typing import Array
@@ -26,6 +26,9 @@ from .registry import Param, edit
 
 FADE_START, FADE_END = 0.6, 1.1  # lengths of the limb that its end is away from where it hangs
 FADE_CUTOFF = 3.0  # Hz
+# Leg lengths: how near hands may hang to the hip joints, feet to the middle; limbs as levers.
+HAND_ROOM, FOOT_ROOM = 0.05, 0.04
+LIMB_LENGTH = {"arms": 0.65, "legs": 1.0}
 
 
 def _degrees(doc: str, low: float, high: float) -> Param:
@@ -68,7 +71,10 @@ def posture(
     Angles in degrees are added to every frame, ``hips_height`` in leg lengths to the height of the
     hips. ``pose`` is the name of a pose in ``kinematics.poses.POSES`` or the line that
     ``str(Pose)`` writes, for example of ``pose_between(neutral, sad)`` from two captured stills.
-    METHOD_REASON
+    ``anatomical`` is the default for what real clips show: with ``additive`` an already bent elbow
+    opens instead of bending (a punch: -6 degrees for +25), and both other methods turn the plane of
+    the elbow (10 to 37 degrees) and bend straightened elbows backwards. Arms and legs drawn in stop
+    softly before hands reach the hips and feet each other.
     """
     named, captured = named_pose(pose)
     values = {
@@ -81,17 +87,51 @@ def posture(
         "elbows": elbows,
         "legs": legs,
     }
-    whole = _pose({name: value + amount * named.get(name, 0.0) for name, value in values.items()})
-    whole = whole + captured * amount
-    if not hips_height and not any(any(turn) for turn in whole.turns.values()):
+    values = {name: value + amount * named.get(name, 0.0) for name, value in values.items()}
+    if not (hips_height or any(values.values()) or any(map(any, (captured * amount).turns.values()))):
         return motion
     body = Body.of(motion)
-    weights = _fade_out(motion, body) if fade else {}
+    positions = world(motion)[1]
+    facing = heading_rotation(positions, body)
+    whole = _pose(_stopped(values, _aside(body, positions, facing))) + captured * amount
+    weights = _fade_out(motion, body, positions, facing) if fade else {}
     rotations = add_pose(motion, body, whole, weights=weights, method=method)
     translations = motion.translations
-    if lean or hips_height:
-        translations = _shift_hips(motion, body, lean, hips_height)
+    if values["lean"] or hips_height:
+        translations = _shift_hips(motion, body, values["lean"], hips_height)
     return motion.with_(rotations=rotations, translations=translations)
+
+
+def _stopped(values: Mapping[str, float], aside: Mapping[str, float]) -> dict[str, float]:
+    """Return the values with arms and legs drawn in no further than there is room for.
+
+    ``aside`` is how far hips, hands and feet usually are from the middle, in leg lengths. The limit is
+    the same for all frames and both sides.
+    """
+    out = dict(values)
+    for name, room in (("arms", aside["arm"] - aside["hip"] - HAND_ROOM), ("legs", aside["leg"] - FOOT_ROOM)):
+        if out[name] < 0.0:
+            angle = np.degrees(np.arcsin(np.clip(room / LIMB_LENGTH[name], 0.0, 1.0)))
+            out[name] = -float(soft_stop(np.array(-out[name]), angle))
+    return out
+
+
+def _aside(body: Body, positions: Array, facing: Array) -> dict[str, float]:
+    """Return how far from the middle hips, arms' ends and legs' ends usually are, in leg lengths.
+
+    It is the median over the clip for the nearer of the two sides.
+    """
+    across = quaternion.rotate(facing, body.left) / body.leg_length
+    out = {}
+    for limb in ("arm", "leg", "hip"):
+        ends = [
+            body.roles[f"{side}_hip"] if limb == "hip" else _chain(body, f"{side}_{limb}")[-1]
+            for side in SIDES
+        ]
+        places = positions[:, ends] - positions[:, [body.roles["hips"]]]
+        left, right = np.median(np.einsum("tei,ti->te", places, across), axis=0)
+        out[limb] = float(min(left, -right))
+    return out
 
 
 def _pose(values: Mapping[str, float]) -> Pose:
@@ -111,21 +151,22 @@ def _pose(values: Mapping[str, float]) -> Pose:
     return Pose(turns)
 
 
-def _fade_out(motion: Motion, body: Body) -> dict[str, Array]:
+def _chain(body: Body, limb: str) -> list[int]:
+    """Return the joints of an arm from the shoulder to the hand, of a leg from the hip to the ankle."""
+    aside = {body.roles.get(f"{limb.split('_')[0]}_{role}") for role in ("collar", "toe")}
+    return [joint for joint in body.limbs[limb] if joint not in aside]
+
+
+def _fade_out(motion: Motion, body: Body, positions: Array, facing: Array) -> dict[str, Array]:
     """Return limb -> how much of the change shows (T,): less the further its end is from hanging."""
     hanging = neutral_world(motion, body)[1]
-    positions = world(motion)[1]
-    back = quaternion.conjugate(heading_rotation(positions, body))
     hips = body.roles["hips"]
     weights = {}
-    for limb, joints in body.limbs.items():
-        chain = [j for j in joints if j != body.roles.get(limb.replace("arm", "collar"))]
-        chain = [j for j in chain if j != body.roles.get(limb.replace("leg", "toe"))]
-        if not limb.endswith(("arm", "leg")) or len(chain) < 2:
-            continue
+    for limb in (f"{side}_{part}" for side in SIDES for part in ("arm", "leg")):
+        chain = _chain(body, limb)
         length = np.linalg.norm(np.diff(hanging[chain], axis=0), axis=-1).sum()
-        end = quaternion.rotate(back, positions[:, chain[-1]] - positions[:, hips])
-        away = np.linalg.norm(end - (hanging[chain[-1]] - hanging[hips]), axis=-1) / length
+        rest = quaternion.rotate(facing, hanging[chain[-1]] - hanging[hips])
+        away = np.linalg.norm(positions[:, chain[-1]] - positions[:, hips] - rest, axis=-1) / length
         x = np.clip((away - FADE_START) / (FADE_END - FADE_START), 0.0, 1.0)
         weights[limb] = _low_pass(1.0 - x * x * (3.0 - 2.0 * x), motion.fps)
     return weights

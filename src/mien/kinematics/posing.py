@@ -25,8 +25,9 @@ from .poses import HEIRS, Pose, anatomical_axes, neutral_world, segment_joints
 
 Method = Literal["anatomical", "additive", "body_fixed"]
 FULL_BEND = np.radians(150.0)
-# How much the plain sideways hinge counts against the bend seen in the clip, as the sine of a bend.
-HINGE_PRIOR = 0.2
+# Sine of the bend from which the bones' own plane counts more as the hinge than what is usual. Nearly
+# straight arms show their carrying angle and capture noise in that plane, not their hinge.
+CLEAR_BEND = 0.5
 
 
 def add_pose(
@@ -132,14 +133,14 @@ def _swing(seen: Array, turn: Array, weight: Array, bone: Array) -> Array:
 def _bend(seen: Array, turn: Array, weight: Array, bone: Array, above: Array, hinge: Array) -> Array:
     """Bend about the joint's own hinge, softly stopped at straight and at full bend.
 
-    The hinge is the normal of the plane of the two bones; where they are nearly in line, the clip's
-    mean normal and the plain sideways ``hinge`` take over.
+    The hinge is the normal of the plane of the two bones where the bend is clear; towards straight it
+    becomes the clip's usual one, and in clips without a clear bend the plain sideways ``hinge``.
     """
     bent = quaternion.rotate(seen, bone)
     normal = np.cross(above, bent)
-    usual = normal.mean(axis=0) + HINGE_PRIOR * hinge
-    axis = normal + HINGE_PRIOR * usual / max(float(np.linalg.norm(usual)), 1e-12)
-    axis = axis / np.maximum(np.linalg.norm(axis, axis=-1, keepdims=True), 1e-12)
+    clear = np.sum(normal * normal, axis=-1, keepdims=True) / CLEAR_BEND**2 * normal
+    usual = _unit(clear.mean(axis=0) + CLEAR_BEND * hinge)
+    axis = _unit(clear + CLEAR_BEND * usual)
     angle = np.arctan2(np.einsum("ti,ti->t", normal, axis), bent @ above)
     wanted = weight * float(turn @ hinge)
     room = np.where(wanted < 0, angle, FULL_BEND - angle)
@@ -157,3 +158,7 @@ def soft_stop(wanted: Array, room: Array) -> Array:
     half = 0.5 * room
     over = np.maximum(wanted - half, 0.0)
     return np.minimum(wanted, half) - half * np.expm1(-over / np.maximum(half, 1e-300))
+
+
+def _unit(v: Array) -> Array:
+    return v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-12)
