@@ -29,7 +29,11 @@ Limb = Literal["left_arm", "right_arm", "head", "left_leg", "right_leg"]
 Mode = Literal["peaks", "grid"]
 # Slower than this is rest: leg lengths a second (5 cm/s), and a share of the limb's own fast speed.
 REST, REST_SHARE, FAST = 0.0575, 0.1, 95.0
+# A limb whose fast speed is below four times rest is idle: its minima are noise.
+IDLE = 4.0
 SEGMENT_ACCELERATED, SEGMENT_EVEN = 0.9, 1.5
+# Steps of 10 ms over which durations are smoothed; more would slow the ends of even movements.
+BLUR_ACCELERATED, BLUR_EVEN = 5, 3
 
 
 @edit(
@@ -52,6 +56,9 @@ def timing(
     mode: Annotated[
         Mode, Param("pauses at minima of speed, or in the thesis's fixed sets of 0.15 s")
     ] = "peaks",
+    rests: Annotated[
+        bool, Param("added acceleration also lengthens long rests, so that single actions rush too")
+    ] = False,
     relative: Annotated[
         Literal["position", "heading"],
         Param("speed relative to the place of the hips, or also to the heading"),
@@ -65,20 +72,20 @@ def timing(
 ) -> Motion:
     """Redistribute the timing of limbs along their paths, each by its own speed.
 
-    Above 0, sets of 0.15 s around a minimum of speed last ``1 + 9 a`` times as long; below 0 durations
-    go over into speeds. Limbs that the skeleton lacks are passed over. Raises ``BodyError`` where no
-    body is found.
+    Above 0, sets of 0.15 s around a minimum of speed last ``1 + 9 a`` times as long; longer rests are left
+    alone unless ``rests``. Continuous movement such as an arm swing takes 0.3 at most before it looks
+    jerky. Below 0, durations go over into speeds. Limbs that the skeleton lacks are passed over. Raises
+    ``BodyError`` where no body is found.
     """
     if acceleration == 0.0 or len(motion) < 3:
         return motion
     body = Body.of(motion)
     longest = segment or (SEGMENT_ACCELERATED if acceleration > 0.0 else SEGMENT_EVEN)
-    rule = _Rule(acceleration, mode, longest, steepest, REST * body.leg_length)
-    names = [name for name in limbs if body.limbs.get(name)]
+    rule = _Rule(acceleration, mode, rests, longest, steepest, REST * body.leg_length)
     round_length = period(motion, body, boundary)
+    tips = _tips(motion, body, [name for name in limbs if body.limbs.get(name)], relative == "heading")
     rotations, translations = np.array(motion.rotations), np.array(motion.translations)
-    shown = _shown_frames(_tips(motion, body, names, relative == "heading"), motion, round_length, rule)
-    for name, at in zip(names, shown, strict=True):
+    for name, at in _shown_frames(tips, motion, round_length, rule).items():
         joints = body.joints((name,))
         here, after, weight = _between(at, round_length or len(motion), round_length > 0)
         a, b = motion.rotations[:, joints], motion.translations[:, joints]
@@ -93,52 +100,63 @@ class _Rule:
 
     acceleration: float
     mode: Mode
+    rests: bool
     longest: float
     steepest: float
     rest: float
 
 
-def _tips(motion: Motion, body: Body, names: Sequence[str], turn: bool) -> list[Array]:
+def _tips(motion: Motion, body: Body, names: Sequence[str], turn: bool) -> dict[str, Array]:
     """Return where the end of each limb is, relative to the hips (T, 3)."""
     rotations, positions = world(motion)
     bones = main_bones(motion.skeleton)
     back = quaternion.conjugate(heading_rotation(positions, body)) if turn else quaternion.IDENTITY
-    tips = [body.limbs[name][-1] for name in names]
-    ends = [positions[:, j] + quaternion.rotate(rotations[:, j], bones[j]) for j in tips]
-    return [quaternion.rotate(back, end - positions[:, body.roles["hips"]]) for end in ends]
+    out = {}
+    for name in names:
+        tip = body.limbs[name][-1]
+        end = positions[:, tip] + quaternion.rotate(rotations[:, tip], bones[tip])
+        out[name] = quaternion.rotate(back, end - positions[:, body.roles["hips"]])
+    return out
 
 
-def _shown_frames(tips: list[Array], motion: Motion, round_length: int, rule: _Rule) -> list[Array]:
-    """Return, for each limb, which frame (T,), in fractions, is shown at each frame."""
+def _shown_frames(tips: dict[str, Array], motion: Motion, round_length: int, rule: _Rule) -> dict[str, Array]:
+    """Return, for each limb that moves, which frame (T,), in fractions, is shown at each frame."""
     wrap = round_length > 0
-    curves = [time_map.speed_curve(p[: round_length or None], motion.frame_time, wrap=wrap) for p in tips]
-    if not curves:
-        return []
+    curves = [
+        time_map.speed_curve(p[: round_length or None], motion.frame_time, wrap=wrap) for p in tips.values()
+    ]
+    speeds = {name: speed for name, (speed, _) in zip(tips, curves, strict=True)}
+    fast = {name: float(np.percentile(speed, FAST)) for name, speed in speeds.items()}
+    moving = [name for name in tips if fast[name] > IDLE * rule.rest]
+    if not moving:
+        return {}
     step = curves[0][1]
-    speeds = [speed for speed, _ in curves]
-    fast = [max(float(np.percentile(s, FAST)), rule.rest) for s in speeds]
-    common = np.sum([s / f for s, f in zip(speeds, fast, strict=True)], axis=0)
+    common = np.sum([speeds[name] / fast[name] for name in moving], axis=0)
     # A loop is cut open where the limbs are slowest, so that its seam is like any other border.
     start = int(np.argmin(common)) if wrap else 0
     borders = time_map.segment_borders(np.roll(common, -start), rule.longest / step)
-    round_time = len(common) * step
-    at = (motion.times - start * step) % round_time if wrap else motion.times
-    shown = []
-    for speed, f in zip(speeds, fast, strict=True):
-        durations = _durations(np.roll(speed, -start), max(REST_SHARE * f, rule.rest), borders, rule, wrap)
-        source = time_map.source_times(durations, step, at) + start * step
-        shown.append(source / motion.frame_time)
-    return shown
+    at = (motion.times - start * step) % (len(common) * step) if wrap else motion.times
+    out = {}
+    for name in moving:
+        still = max(REST_SHARE * fast[name], rule.rest)
+        durations = _durations(np.roll(speeds[name], -start), still, borders, rule, wrap)
+        if np.abs(durations - 1.0).max() > 1e-9:
+            out[name] = (time_map.source_times(durations, step, at) + start * step) / motion.frame_time
+    return out
 
 
 def _durations(speed: Array, still: float, borders: Integers, rule: _Rule, wrap: bool) -> Array:
     a = rule.acceleration
     if a > 0.0:
         pauses = time_map.short_pauses(speed, still, mode=rule.mode, wrap=wrap)
-        raw = 1.0 + (time_map.FACTOR - 1.0) * a * pauses
+        pauses = np.maximum(pauses, speed < still) if rule.rests else pauses
+        raw, width = 1.0 + (time_map.FACTOR - 1.0) * a * pauses, BLUR_ACCELERATED
     else:
-        raw = 1.0 - a * (time_map.constant_speed(speed, speed < still, borders) - 1.0)
-    return time_map.balance(time_map.blur(raw, wrap=wrap), borders, steepest=rule.steepest, wrap=wrap)
+        even = time_map.constant_speed(speed, speed < still, borders)
+        pauses = np.maximum(pauses, speed < still) if rule.rests else pauses
+        raw, width = 1.0 - a * (even - 1.0), BLUR_EVEN
+    smooth = time_map.blur(raw, width=width, wrap=wrap)
+    return time_map.balance(smooth, borders, steepest=rule.steepest, wrap=wrap)
 
 
 def _between(at: Array, frames: int, wrap: bool) -> tuple[Integers, Integers, Array]:

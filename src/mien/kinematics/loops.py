@@ -18,7 +18,7 @@ SAME_POSE, SAME_SPEED, FOLLOWS = 0.25, 1.5, 0.75
 SHORTEST = 8
 
 
-def period(motion: Motion, body: Body, boundary: Boundary = "auto") -> int:
+def period(motion: Motion, body: Body, boundary: Boundary) -> int:
     """Return the frames of one round of a clip as ``boundary`` wants it, 0 where the ends are held.
 
     ``wrap`` takes a clip that does not look like a loop for one round.

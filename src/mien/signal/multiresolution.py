@@ -42,7 +42,7 @@ def smooth(x: Array, level: int, *, wrap: bool = False) -> Array:
     return last
 
 
-def band_levels(fps: float, edges: tuple[float, float] = (1.0, 12.5)) -> tuple[int, int]:
+def band_levels(fps: float, *, edges: tuple[float, float] = (1.0, 12.5)) -> tuple[int, int]:
     """Return ``(h, m)``: bands below ``h`` lie above the upper edge, ``h`` to ``m - 1`` between the edges.
 
     A band counts by the geometric centre of its octave, ``fps / 2^(k + 1.5)``.

@@ -21,6 +21,7 @@ PROMINENCE = 0.8
 FACTOR = 10.0
 # Low-passed to 12.5 Hz (nominal), as the highest frequencies of speed are noise.
 LEVEL = 2
+# Steps over which the correction from segment to segment is smoothed.
 BLUR = 5
 
 
@@ -89,14 +90,14 @@ def balance(durations: Array, borders: Integers, *, steepest: float, wrap: bool 
     """
     least = 1.0 / steepest
     for _ in range(12):
-        durations = durations * blur(1.0 / _segment_means(durations, borders), wrap=wrap)
+        durations = durations * blur(1.0 / _segment_means(durations, borders), width=BLUR, wrap=wrap)
         durations = np.maximum(durations, least)
     spare = durations - least
     means = _segment_means(spare, borders)
     return np.where(means > 0.0, least + spare * (1.0 - least) / np.where(means > 0.0, means, 1.0), 1.0)
 
 
-def blur(values: Array, *, width: int = BLUR, wrap: bool = False) -> Array:
+def blur(values: Array, *, width: int, wrap: bool = False) -> Array:
     """Return the mean over ``width`` (odd) steps around each; beyond the ends the last value holds."""
     half = width // 2
     wide = np.pad(values, half, mode="wrap" if wrap else "edge")
