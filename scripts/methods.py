@@ -1,7 +1,8 @@
-"""Write METHODS.md and the generated part of docs/methods/*.md from the registry of edits.
+"""Write what documents say of edits and presets, from the registry and the preset files.
 
-``python scripts/methods.py`` writes them; with ``--check`` it only says which are out of date. What the
-text says comes from the edits themselves: change the edit, then run this.
+METHODS.md, the facts in docs/methods/*.md, the tables of emotion words in README.md and docs/presets.md.
+``python scripts/methods.py`` writes them; with ``--check`` it only says which are out of date. Change the
+edit or the preset, then run this.
 """
 
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 import mien.edits
 from mien.cli.flags import flag_name
 from mien.edits.registry import EDITS, Edit, Parameter
+from mien.emotion.presets import PRESETS, preset
 
 ROOT = Path(__file__).resolve().parents[1]
 COMMAND = "python scripts/methods.py"
@@ -120,21 +122,45 @@ def methods() -> str:
     return "\n".join(lines)
 
 
-def page(edit: Edit, written: str) -> str:
-    """Return a page of docs/methods with its generated part brought up to date."""
-    made = "\n".join([BEGIN, "", *facts(edit, up="../../"), "", *parameter_table(edit), "", END])
+def words(*, own: bool) -> list[str]:
+    """Return a table of mien's own presets, or of those of the thesis."""
+    names = [name for name in PRESETS if ("/" not in name) == own]
+    rows = [f"| `{name}` | {_cell(preset(name).description)} |" for name in names]
+    return ["| emotion | what it does |", "| --- | --- |", *rows]
+
+
+def evidence() -> list[str]:
+    """Return the tables of all presets with what is known of how viewers read them."""
+    lines = []
+    for title, own in (("## Emotion words", True), ("## The thesis's own", False)):
+        lines += [title, "", "| emotion | what it does | evidence |", "| --- | --- | --- |"]
+        for recipe, name in ((preset(n), n) for n in PRESETS if ("/" not in n) == own):
+            lines.append(f"| `{name}` | {_cell(recipe.description)} | {_cell(recipe.evidence)} |")
+        lines.append("")
+    return lines[:-1]
+
+
+def filled(written: str, made: list[str]) -> str:
+    """Return a document with the part between the marks brought up to date; without marks, added."""
+    block = "\n".join([BEGIN, "", *made, "", END])
     before, found, rest = written.partition(BEGIN)
     if not found:
-        return f"{written.rstrip() or '# ' + edit.name}\n\n{made}\n"
-    return before + made + rest.partition(END)[2]
+        return f"{written.rstrip()}\n\n{block}\n"
+    return before + block + rest.partition(END)[2]
 
 
 def texts() -> dict[Path, str]:
     """Return every generated file and what it should hold."""
-    out = {ROOT / "METHODS.md": methods()}
+    made = {ROOT / "README.md": words(own=True), ROOT / "docs" / "presets.md": evidence()}
     for name, edit in EDITS.items():
-        file = ROOT / "docs" / "methods" / f"{name}.md"
-        out[file] = page(edit, file.read_text(encoding="utf-8") if file.exists() else "")
+        made[ROOT / "docs" / "methods" / f"{name}.md"] = [
+            *facts(edit, up="../../"),
+            "",
+            *parameter_table(edit),
+        ]
+    out = {ROOT / "METHODS.md": methods()}
+    for file, lines in made.items():
+        out[file] = filled(file.read_text(encoding="utf-8") if file.exists() else f"# {file.stem}", lines)
     return out
 
 

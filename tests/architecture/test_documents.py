@@ -16,7 +16,7 @@ from mien.recipe import Step
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 # Packages whose __all__ is the public interface, and those whose modules are namespaces of functions.
-INTERFACES = ("mien", "mien.formats", "mien.render", "mien.samples")
+INTERFACES = ("mien", "mien.render", "mien.samples")
 NAMESPACES = ("rotations", "signal", "kinematics", "edits", "analysis", "emotion")
 
 
