@@ -162,9 +162,12 @@ def _goal(before: _Pose, after: _Pose, contacts: Contacts, body: Body, foot: int
     turn = quaternion.exp(curve_gaps(quaternion.log(astray), planted, reach=reach))
     turn = quaternion.multiply(turn, after.rotations[:, ankle])
     stands = curve_gaps(planted.astype(float), planted, reach=reach)
-    sunk = _sunk(before, after, here + offset, turn, body, foot)
-    lift = envelope(np.where(planted, 0.0, sunk), reach=round(0.12 / dt)) * _clear(planted, dt, 0.06)
-    return _Goal(here + offset + lift[:, None] * body.up, turn, stands)
+    goal = here + offset
+    scraping = np.where(planted, 0.0, _sunk(before, after, goal, turn, body, foot, CLEARANCE))
+    goal += (envelope(scraping, reach=round(0.12 / dt)) * _clear(planted, dt, 0.06))[:, None] * body.up
+    sunk = np.where(planted, 0.0, _sunk(before, after, goal, turn, body, foot, 0.0))
+    goal += envelope(sunk, reach=round(0.05 / dt))[:, None] * body.up
+    return _Goal(goal, turn, stands)
 
 
 def _clear(planted: Mask, frame_time: float, seconds: float) -> Array:
@@ -177,11 +180,13 @@ def _clear(planted: Mask, frame_time: float, seconds: float) -> Array:
     return np.asarray(share * share * (3 - 2 * share))
 
 
-def _sunk(before: _Pose, after: _Pose, ankle: Array, turn: Array, body: Body, foot: int) -> Array:
+def _sunk(
+    before: _Pose, after: _Pose, ankle: Array, turn: Array, body: Body, foot: int, clearance: float
+) -> Array:
     """Return how far (T,) the foot is below where it must be.
 
-    Looks at the ankle and at every joint and end site below it. Each must keep ``CLEARANCE`` of the
-    height that it has in the original above its own lowest level, so a swinging foot does not scrape.
+    Looks at the ankle and at every joint and end site below it. Each must keep the share
+    ``clearance`` of the height that it has in the original above its own lowest level.
     """
     skeleton = after.motion.skeleton
     root = body.roles[f"{SIDES[foot]}_ankle"]
@@ -199,7 +204,7 @@ def _sunk(before: _Pose, after: _Pose, ankle: Array, turn: Array, body: Body, fo
     reached = ankle[:, None] + quaternion.rotate(turn[:, None], rigid(after))
     height = np.concatenate([ankle[:, None], reached], axis=1) @ body.up
     floor = np.percentile(lowest, 2, axis=0)
-    needed = np.minimum(lowest, floor) + CLEARANCE * np.maximum(lowest - floor, 0.0)
+    needed = np.minimum(lowest, floor) + clearance * np.maximum(lowest - floor, 0.0)
     return np.maximum((needed - height).max(axis=1), 0.0)
 
 
