@@ -153,7 +153,6 @@ def _durations(speed: Array, still: float, borders: Integers, rule: _Rule, wrap:
         raw, width = 1.0 + (time_map.FACTOR - 1.0) * a * pauses, BLUR_ACCELERATED
     else:
         even = time_map.constant_speed(speed, speed < still, borders)
-        pauses = np.maximum(pauses, speed < still) if rule.rests else pauses
         raw, width = 1.0 - a * (even - 1.0), BLUR_EVEN
     smooth = time_map.blur(raw, width=width, wrap=wrap)
     return time_map.balance(smooth, borders, steepest=rule.steepest, wrap=wrap)
