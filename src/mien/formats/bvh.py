@@ -4,6 +4,7 @@ Reading keeps the file's header and numbers; writing gives them back where nothi
 is refused with file and line, or with ``salvage`` cut away.
 """
 
+import math
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -34,11 +35,11 @@ _LINE = re.compile(rb"\r\n|\n|\r")
 
 def parse(data: bytes, where: str, *, fps: float | None = None, salvage: bool = False) -> Motion:
     """Make a motion of the bytes of a BVH file; ``where`` names the file in errors."""
-    skeleton, layout, declared = _read_header(data, where, fps=fps, salvage=salvage)
+    layout, declared = _read_header(data, where, fps=fps, salvage=salvage)
     values = _read_values(data, where, layout, declared, salvage=salvage)
-    rotations, translations = to_motion(values, skeleton, layout.channels)
+    rotations, translations = to_motion(values, layout.skeleton, layout.channels)
     return Motion(
-        skeleton=replace(skeleton, layout=layout),
+        skeleton=replace(layout.skeleton, layout=layout),
         rotations=rotations,
         translations=translations,
         frame_time=1.0 / fps if fps else layout.frame_time,
@@ -51,20 +52,18 @@ def render(motion: Motion) -> bytes:
     """Return the bytes of the BVH file that holds ``motion``."""
     motion = _nested(motion)
     layout = _layout(motion)
-    values = to_values(motion, layout.channels, decimals=max(layout.decimals, 6))
+    values = to_values(motion, layout.channels, decimals=min(max(layout.decimals, 6), 9))
     return _stamp(layout, len(motion), motion.frame_time) + write_rows(
-        values, layout.newline, decimals=layout.decimals
+        values, layout.newline, decimals=min(layout.decimals, 9)
     )
 
 
-def _read_header(
-    data: bytes, where: str, *, fps: float | None, salvage: bool
-) -> tuple[Skeleton, BvhLayout, int]:
+def _read_header(data: bytes, where: str, *, fps: float | None, salvage: bool) -> tuple[BvhLayout, int]:
     found = _MOTION.search(data)
     if found is None:
         raise FormatError(f"{where}: {_no_motion(data)}")
     text, encoding = decode(data[: found.start(1)], where)
-    skeleton, channels, _whole = read_hierarchy(text, where, salvage=salvage)
+    skeleton, channels, whole = read_hierarchy(text, where, salvage=salvage)
     if not any(channels):
         raise FormatError(f"{where}: no joint has channels, so there is no motion in the file")
     count = _COUNT.match(data, found.end())
@@ -75,6 +74,7 @@ def _read_header(
             f"{where} line {line}: expected 'Frame{'s: 10' if not count else ' Time: 0.01'}' here"
         )
     layout = BvhLayout(
+        skeleton=skeleton,
         channels=channels,
         header=data[: time.end()],
         count=count.span(1),
@@ -82,8 +82,15 @@ def _read_header(
         frame_time=_frame_time(time[1], f"{where} line {_line(data, time.start(1))}", fps=fps),
         newline=time[2] or b"\n",
         encoding=encoding,
+        decimals=_decimals(data, time.end()),
+        whole=whole,
     )
-    return skeleton, layout, _frames(count[1], f"{where} line {_line(data, count.start(1))}")
+    return layout, _frames(count[1], f"{where} line {_line(data, count.start(1))}")
+
+
+def _decimals(data: bytes, start: int) -> int:
+    """Return how many decimals the numbers in the first kilobyte of rows have at most."""
+    return max(map(len, re.findall(rb"\.(\d*)", data[start : start + 1024])), default=0)
 
 
 def _no_motion(data: bytes) -> str:
@@ -114,7 +121,7 @@ def _frame_time(text: bytes, where: str, *, fps: float | None) -> float:
     if 1e-6 <= seconds <= 1e4:
         return seconds
     if fps:
-        return 1.0 / fps
+        return math.nan
     raise FormatError(
         f"{where}: the frame time must be seconds above 0, found {_show(text)} (use --fps to override it)"
     )
@@ -166,11 +173,19 @@ def _nested(motion: Motion) -> Motion:
 
 def _layout(motion: Motion) -> BvhLayout:
     """Return the layout to write with: the file's own while the skeleton is the one it describes."""
-    skeleton = motion.skeleton
-    layout = skeleton.layout
-    if not isinstance(layout, BvhLayout) or len(layout.channels) != len(skeleton):
+    skeleton, layout = motion.skeleton, motion.skeleton.layout
+    if not isinstance(layout, BvhLayout) or layout.skeleton.names != skeleton.names:
         return new_layout(skeleton, _default_channels(motion))
+    if not layout.whole or not _same(skeleton, layout.skeleton):
+        return new_layout(skeleton, layout.channels, newline=layout.newline, encoding=layout.encoding)
     return layout
+
+
+def _same(a: Skeleton, b: Skeleton) -> bool:
+    return all(
+        np.array_equal(getattr(a, field), getattr(b, field))
+        for field in ("parents", "offsets", "end_parents", "end_offsets")
+    )
 
 
 def _default_channels(motion: Motion) -> tuple[tuple[str, ...], ...]:
@@ -180,18 +195,34 @@ def _default_channels(motion: Motion) -> tuple[tuple[str, ...], ...]:
     return tuple(POSITIONS + turns if moved else turns for moved in moves)
 
 
-def new_layout(skeleton: Skeleton, channels: tuple[tuple[str, ...], ...]) -> BvhLayout:
+def new_layout(
+    skeleton: Skeleton,
+    channels: tuple[tuple[str, ...], ...],
+    *,
+    newline: bytes = b"\n",
+    encoding: str = "utf-8",
+) -> BvhLayout:
     """Return the layout of a file yet to be written, with these ``channels`` for each joint."""
-    before = "\n".join([*write_hierarchy(skeleton, channels), "MOTION", "Frames: "]).encode()
-    between = b"0\nFrame Time: "
+    lines = [*write_hierarchy(skeleton, channels), "MOTION", "Frames: "]
+    before = _encode(newline.decode().join(lines), encoding)
+    between = b"0" + newline + b"Frame Time: "
     time = len(before) + len(between)
     return BvhLayout(
+        skeleton=skeleton,
         channels=channels,
-        header=before + between + b"0\n",
+        header=before + between + b"0" + newline,
         count=(len(before), len(before) + 1),
         time=(time, time + 1),
-        frame_time=0.0,
+        frame_time=math.nan,
+        newline=newline,
     )
+
+
+def _encode(text: str, encoding: str) -> bytes:
+    try:
+        return text.encode(encoding)
+    except UnicodeEncodeError:
+        return text.encode()
 
 
 def _stamp(layout: BvhLayout, frames: int, frame_time: float) -> bytes:

@@ -15,7 +15,7 @@ from ..errors import FormatError, unknown
 from ..motion import Skeleton
 from ..typing import Integers
 
-MAX_JOINTS = 20_000
+MAX_JOINTS = 5000
 POSITIONS = ("Xposition", "Yposition", "Zposition")
 ROTATIONS = ("Xrotation", "Yrotation", "Zrotation")
 _CHANNELS = {name.lower(): name for name in POSITIONS + ROTATIONS}
@@ -28,10 +28,12 @@ class BvhLayout:
 
     ``channels`` for each joint, spelt as in ``POSITIONS`` and ``ROTATIONS``. ``header`` the file's bytes
     up to the first row of numbers, with ``count`` and ``time`` the spans (start, end) of the frame count
-    and the frame time in it; ``frame_time`` what that text says, in seconds. ``decimals`` how many the
-    file's numbers have at most.
+    and the frame time in it; ``frame_time`` what that text says, in seconds (NaN: it says nothing of
+    use). ``skeleton`` is the one that the header describes. ``decimals``: how many the numbers have.
+    ``whole``: the header can be used again as it is.
     """
 
+    skeleton: Skeleton
     channels: tuple[tuple[str, ...], ...]
     header: bytes
     count: tuple[int, int]
@@ -40,6 +42,7 @@ class BvhLayout:
     newline: bytes = b"\n"
     encoding: str = "utf-8"
     decimals: int = 6
+    whole: bool = True
 
     @property
     def width(self) -> int:
@@ -71,17 +74,20 @@ def number(text: str) -> float:
 def read_hierarchy(
     text: str, where: str, *, salvage: bool = False
 ) -> tuple[Skeleton, tuple[tuple[str, ...], ...], bool]:
-    """Return the skeleton, each joint's channels, and whether every brace was closed.
+    """Return the skeleton, each joint's channels, and whether the text was whole.
 
-    Open braces at the end are an error unless ``salvage``.
+    With ``salvage``, missing braces at the end are added and what follows a whole tree is ignored.
     """
     reader = _Reader(where)
-    for line in _BREAK.split(text):
-        reader.line += 1
-        rest = line.strip()
-        while rest:
-            rest = reader.statement(rest)
-    whole = reader.finish(salvage=salvage)
+    whole = True
+    try:
+        for line in _BREAK.split(text):
+            reader.read_line(line.strip())
+    except FormatError:
+        whole = False
+        if not (salvage and reader.joints and not reader.open and not reader.waiting):
+            raise
+    whole &= reader.finish(salvage=salvage)
     return reader.skeleton(), tuple(node.channels for node in reader.joints), whole
 
 
@@ -110,7 +116,12 @@ class _Reader:
     def fault(self, message: str) -> FormatError:
         return FormatError(f"{self.where} line {self.line}: {message}")
 
-    def statement(self, rest: str) -> str:
+    def read_line(self, rest: str) -> None:
+        self.line += 1
+        while rest:
+            rest = self._statement(rest)
+
+    def _statement(self, rest: str) -> str:
         """Take one statement off the line and return what is left of it."""
         if rest[0] == "{":
             return self._enter(rest)

@@ -39,27 +39,30 @@ def _read_whole(body: bytes, frames: int, width: int) -> Array | None:
     """Return ``frames`` rows of finite numbers, or None if ``body`` is not plainly that."""
     if 2 * frames * width > len(body) + 1:
         return None
-    marks = body.translate(_PLAIN, _DIGITS)
-    if not _regular(marks, frames, width):
+    signs = _count_signs(body, frames, width)
+    if signs is None:
         body = _tidy(body)
-        marks = body.translate(_PLAIN, _DIGITS)
-    if (
-        not _regular(marks, frames, width)
-        or b".." in marks
-        or (b"e" in marks and _odd_exponents(body, marks))
-    ):
-        return None
-    values = _parse(body, frames * width)
+        signs = _count_signs(body, frames, width)
+    values = None if signs is None else _parse(body, frames * width)
     # A sign inside a number ("1-2") ends the parser's reading there, and shows as one sign too many.
-    signs = marks.count(b"-") - marks.count(b"e-")
     if values is None or signs != np.count_nonzero(np.signbit(values)) or not np.isfinite(values).all():
         return None
     return values.reshape(frames, width)
 
 
-def _regular(marks: bytes, frames: int, width: int) -> bool:
-    """Return whether the text without its digits is ``frames`` lines of ``width`` words of ``.e-``."""
-    return marks.translate(None, b".e-") == (b" " * (width - 1) + b"\n") * frames
+def _count_signs(body: bytes, frames: int, width: int) -> int | None:
+    """Return how many signs mantissas have, or None unless there are ``frames`` rows of ``width`` words.
+
+    Words are made of digits and ``.eE+-``, with one separator between them, not all possible orders.
+    """
+    if body.translate(None, _DIGITS + b"-") == (b". " * (width - 1) + b".\n") * frames:
+        return int(np.count_nonzero(np.frombuffer(body, np.uint8) == ord("-")))
+    marks = body.translate(_PLAIN, _DIGITS)
+    if marks.translate(None, b".e-") != (b" " * (width - 1) + b"\n") * frames or b".." in marks:
+        return None
+    if b"e" in marks and _odd_exponents(body, marks):
+        return None
+    return marks.count(b"-") - marks.count(b"e-")
 
 
 def _tidy(body: bytes) -> bytes:
