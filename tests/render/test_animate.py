@@ -93,9 +93,10 @@ def test_the_camera_follows(tmp_path):
             assert abs(columns.mean() - 60) < 15
 
 
-def test_the_grid_stays_in_the_world_while_the_camera_moves():
+@pytest.mark.parametrize("view", ["three-quarter", "front", "top"])
+def test_the_grid_stays_in_the_world_while_the_camera_moves(view):
     up, step = np.array([0.0, 1.0, 0.0]), 0.5
-    axes = view_axes("three-quarter", up, np.array([0.0, 0.0, 1.0]))
+    axes = view_axes(view, up, np.array([0.0, 0.0, 1.0]))
 
     def floor(shift):
         canvas = np.full((100, 100, 3), 255.0, np.float32)

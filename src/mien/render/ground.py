@@ -40,9 +40,8 @@ def grid(canvas: Array, camera: Camera, up: Array, middle: Array, size: float, s
     The lines stay where they are in the world while the camera moves.
     """
     tilt = float(camera.axes[2] @ up)
-    if tilt < 0.05:  # seen from the side the floor is a line
-        y = camera.project(middle)[1]
-        canvas[round(y) :] *= 0.955
+    if tilt < 0.05:
+        _edge(canvas, camera, middle, step)
         return
     height, width = canvas.shape[:2]
     centre, radius = camera.project(middle), PATCH * size * camera.scale
@@ -62,6 +61,16 @@ def grid(canvas: Array, camera: Camera, up: Array, middle: Array, size: float, s
     patch = 2.0 - (2.0 / (PATCH * size) ** 2) * (right**2 + back**2)
     patch = np.clip(patch, 0.0, 1.0, out=patch)
     canvas[top:end] *= (1.0 - patch * (SHADE + LINE * np.minimum(lines, 1.0)))[..., None]
+
+
+def _edge(canvas: Array, camera: Camera, middle: Array, step: float) -> None:
+    """Draw the floor as seen from the side: a band, with a mark every ``step`` units to the right."""
+    centre = camera.project(middle)
+    y = int(np.clip(round(centre[1]), 0, len(canvas)))
+    canvas[y:] *= 1.0 - SHADE
+    units = (np.arange(canvas.shape[1]) + 0.5 - centre[0]) / camera.scale + middle @ camera.axes[0]
+    away = np.abs(units - np.rint(units / step) * step) * camera.scale
+    canvas[y : y + 8] *= (1.0 - 2.0 * LINE * np.clip(1.3 - away, 0.0, 1.0))[:, None]
 
 
 def _floor_axis(up: Array) -> Array:
