@@ -107,8 +107,7 @@ def to_values(motion: Motion, channels: tuple[tuple[str, ...], ...], *, decimals
     turned = _edited(motion.rotations, source.rotations if source else None)
     for group in where.turns:
         _put_turns(values, motion, group, turned, source, decimals)
-    moved = _edited(motion.translations, source.translations if source else None)
-    _put_moves(values, motion, where.moves, moved, decimals)
+    _put_moves(values, motion, where.moves, source, decimals)
     return values
 
 
@@ -183,18 +182,40 @@ def _gap(a: Array, b: Array) -> Array:
     return (np.abs(np.remainder(a - b + 180.0, 360.0) - 180.0)).sum(axis=-1)
 
 
-def _put_moves(values: Array, motion: Motion, moves: Integers, moved: Mask, decimals: int) -> None:
+def _put_moves(
+    values: Array, motion: Motion, moves: Integers, source: BvhSource | None, decimals: int
+) -> None:
     joints, axes, taken = moves.T
-    edited = moved[:, joints]
-    values[:, taken] = np.where(
-        edited, np.round(motion.translations[:, joints, axes], decimals), values[:, taken]
-    )
-    fixed = np.ones((len(motion.skeleton), 3), bool)
-    fixed[joints, axes] = False
-    away = np.abs(motion.translations - motion.skeleton.offsets).max(axis=0)
-    size = np.abs(motion.skeleton.offsets).max()
-    for joint in np.flatnonzero((fixed & (away > 1e-9 * size)).any(axis=1)):
-        raise FormatError(
-            f"joint {motion.skeleton.names[joint]!r} was moved, but has no position channels in the file; "
-            f"leave it out of the edit (--parts)"
-        )
+    if source is not None and np.array_equal(motion.translations, source.translations):
+        return
+    movable = np.zeros((len(motion.skeleton), 3), bool)
+    movable[joints, axes] = True
+    translations = _carry(motion, movable)
+    edited = _edited(translations, source.translations if source else None)[:, joints]
+    now = np.round(translations[:, joints, axes], decimals)
+    values[:, taken] = np.where(edited, now, values[:, taken])
+
+
+def _carry(motion: Motion, movable: Mask) -> Array:
+    """Return the translations with those that have no channels handed to the parent, where that is exact.
+
+    A parent with one child may take over that child's movement: ``t_p + R_p (t - offset)`` puts the
+    child, and all below it, where they were. So a dummy root carries the hips of some exporters.
+    """
+    skeleton, translations = motion.skeleton, np.array(motion.translations)
+    size = 1e-7 * np.abs(skeleton.offsets).max()  # what is below is the rounding of an edit
+    away = (np.abs(translations - skeleton.offsets) > size).any(axis=0)
+    for joint in range(len(skeleton) - 1, -1, -1):
+        if not (away[joint] & ~movable[joint]).any():
+            continue
+        parent = int(skeleton.parents[joint])
+        if parent < 0 or skeleton.children(parent) != [joint]:
+            raise FormatError(
+                f"joint {skeleton.names[joint]!r} was moved, but has no position channels in the file; "
+                f"leave it out of the edit (--parts)"
+            )
+        shift = translations[:, joint] - skeleton.offsets[joint]
+        translations[:, joint] = skeleton.offsets[joint]
+        translations[:, parent] += quaternion.rotate(motion.rotations[:, parent], shift)
+        away[parent] = True
+    return translations
