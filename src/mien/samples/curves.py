@@ -18,10 +18,11 @@ def keyed(t: Array, keys: Sequence[Key]) -> Array:
     and after the last one the value is held.
     """
     full = np.array([(*key, 0.0, 0.0, 0.0)[:4] for key in keys])
-    index = np.clip(np.searchsorted(full[:, 0], t, side="right") - 1, 0, max(len(full) - 2, 0))
+    t = np.clip(t, full[0, 0], full[-1, 0])
+    index = np.searchsorted(full[:, 0], t, side="right") - 1
     start, end = full[index], full[np.minimum(index + 1, len(full) - 1)]
     length = np.maximum(end[:, 0] - start[:, 0], 1e-12)
-    u = np.clip((t - start[:, 0]) / length, 0.0, 1.0)
+    u = (t - start[:, 0]) / length
     return quintic(u, start[:, 1:] * _powers(length), end[:, 1:] * _powers(length))
 
 
@@ -34,18 +35,10 @@ def quintic(u: Array, start: Array, end: Array) -> Array:
     gap = end[..., 0] - p - v - 0.5 * a
     slope = end[..., 1] - v - a
     bend = end[..., 2] - a
-    return p + u * (
-        v
-        + u
-        * (
-            0.5 * a
-            + u
-            * (
-                (10.0 * gap - 4.0 * slope + 0.5 * bend)
-                + u * ((-15.0 * gap + 7.0 * slope - bend) + u * (6.0 * gap - 3.0 * slope + 0.5 * bend))
-            )
-        )
-    )
+    c3 = 10.0 * gap - 4.0 * slope + 0.5 * bend
+    c4 = -15.0 * gap + 7.0 * slope - bend
+    c5 = 6.0 * gap - 3.0 * slope + 0.5 * bend
+    return p + u * (v + u * (0.5 * a + u * (c3 + u * (c4 + u * c5))))
 
 
 def _powers(length: Array) -> Array:

@@ -58,8 +58,8 @@ def _pitch(t: Array, landing: float) -> Array:
         (PUSH - 0.19, 0.0),
         (PUSH, -36.0, -420.0),
         (PUSH + 0.09, -58.0),
-        (landing - 0.12, -46.0),
-        (landing, -24.0, 260.0),
+        (landing - 0.12, -52.0),
+        (landing, -34.0, 340.0),
         (landing + 0.11, 0.0),
     ]
     return keyed(t, keys) * DEGREE
@@ -67,15 +67,14 @@ def _pitch(t: Array, landing: float) -> Array:
 
 def _height(t: Array, speed: float, landing: float) -> Array:
     """Return the height of the hips (T,): down, up, the flight, down, up."""
-    left, met = HIP_HEIGHT + 0.035, HIP_HEIGHT + 0.035
-    rest = HIP_HEIGHT - 0.004
+    rest, left = HIP_HEIGHT - 0.004, HIP_HEIGHT + 0.035
     ground = keyed(
         t,
         [
             (DIP, rest),
             (PUSH - 0.26, HIP_HEIGHT - 0.27, 0.0, 14.0),
             (PUSH, left, speed, -GRAVITY),
-            (landing, met, -speed, -GRAVITY),
+            (landing, left, -speed, -GRAVITY),
             (landing + LAND, HIP_HEIGHT - 0.24, 0.0, 9.0),
             (landing + SETTLE, rest),
         ],
@@ -110,8 +109,8 @@ def _rise(t: Array, speed: float, landing: float) -> Array:
         [
             (PUSH, 0.0, speed, -10.0 * speed * speed),
             (PUSH + 0.12 / speed, 0.04),
-            (landing - 0.12, 0.035),
-            (landing, 0.0, -0.2 * speed),
+            (landing - 0.1 / speed, 0.025),
+            (landing, 0.0, -0.6 * speed),
         ],
     )
     since = t - PUSH

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TypedDict, Unpack
+from typing import TypedDict
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from .figure import LEG
 from .pose import Figure, about
 from .skeletons import Rig, rig
 
+FPS = 60.0
 METRES = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001, "inch": 0.0254, "foot": 0.3048}
 UP = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
 FORWARD = {"y": np.array([0.0, 0.0, 1.0]), "z": np.array([0.0, -1.0, 0.0])}
@@ -69,7 +70,7 @@ class Truth:
 
 def times(seconds: float, form: Form) -> Array:
     """Return the frame times (T,) from 0 up to and with ``seconds``."""
-    fps = form.get("fps", 60.0)
+    fps = form.get("fps", FPS)
     if not (np.isfinite(fps) and fps > 0):
         raise MienError(f"fps must be above 0, got {fps}")
     if not (np.isfinite(seconds) and seconds >= 0):
@@ -77,20 +78,29 @@ def times(seconds: float, form: Form) -> Array:
     return np.arange(int(np.floor(seconds * fps + 1e-6)) + 1) / fps
 
 
-def sample(name: str, figure: Figure, truth: Truth, **form: Unpack[Form]) -> Sample:
+def sample(
+    name: str,
+    figure: Figure,
+    truth: Truth,
+    *,
+    fps: float = FPS,
+    skeleton: str = "standard22",
+    unit: str = "cm",
+    up: str = "y",
+    heading: float = 0.0,
+) -> Sample:
     """Write the moving figure down on a skeleton, in a unit, up axis and heading."""
-    unit, up, heading = form.get("unit", "cm"), form.get("up", "y"), form.get("heading", 0.0)
     if unit not in METRES:
         raise MienError(unknown("unit", unit, METRES))
     if up not in UP:
         raise MienError(unknown("up axis", up, UP))
     if not np.isfinite(heading):
         raise MienError(f"heading must be a finite angle in radians, got {heading}")
-    chosen, scale = rig(form.get("skeleton", "standard22")), 1.0 / METRES[unit]
+    chosen, scale = rig(skeleton), 1.0 / METRES[unit]
     upright = about(0, 0.5 * np.pi if up == "z" else 0.0)
     motion = _motion(figure, chosen, scale, upright, heading)
     return Sample(
-        motion=motion.with_(frame_time=1.0 / form.get("fps", 60.0), name=name),
+        motion=motion.with_(frame_time=1.0 / fps, name=name),
         contacts=truth.contacts,
         angles=truth.angles,
         phases=truth.phases,
