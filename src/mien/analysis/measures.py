@@ -62,11 +62,12 @@ class Footing:
 def measures(motion: Motion, *, body: Body | None = None, footing: Footing | None = None) -> dict[str, float]:
     """Return every measure of ``MEASURES``; what cannot be measured is not a number.
 
-    Means over the clip: ``head_pitch`` of the face below the horizon, ``trunk_flexion`` of the line from
-    hips to shoulders from the vertical, ``elbow_flexion`` from straight; ``arm_swing`` is the range (5th
-    to 95th percentile) of the upper arm's angle seen from the side. ``foot_slide`` is the mean over
-    contacts, ``foot_sink`` the deepest. ``body`` and ``footing`` are those of the source clip when the
-    motion was made from one: then slide and sink are judged where the source's feet stood.
+    Means over the clip: ``head_pitch`` of the face below where the neutral stance looks,
+    ``trunk_flexion`` of the line from hips to shoulders from the vertical, ``elbow_flexion`` from
+    straight; ``arm_swing`` is the range (5th to 95th percentile) of the upper arm's angle seen from the
+    side. ``foot_slide`` is the mean over contacts, ``foot_sink`` the deepest. ``body`` and ``footing``
+    are those of the source clip when the motion was made from one: then slide and sink are judged where
+    the source's feet stood.
     """
     body = body or Body.of(motion)
     footing = footing or Footing.of(motion, body)

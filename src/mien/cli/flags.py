@@ -37,13 +37,17 @@ def compose(
 ) -> tuple[Step, ...]:
     """Return the steps of a recipe with those that flags mean.
 
-    A flag of an edit that the recipe has changes the recipe's own step; any other adds a step, at its
-    place in ``ORDER``. ``foot_plant`` True puts the feet back after the poses are edited, False leaves
-    no repair of the feet, None leaves the recipe as it is.
+    A flag of an edit that the recipe has changes the recipe's first step of that edit; any other adds a
+    step, at its place in ``ORDER``. ``foot_plant`` True puts the feet back after the poses are edited,
+    False leaves no repair of the feet, None leaves the recipe as it is.
     """
-    made = [replace(step, parameters={**step.parameters, **flags.get(step.edit, {})}) for step in steps]
+    made = list(steps)
     for name in sorted(flags, key=_rank):
-        if all(step.edit != name for step in made):
+        there = [i for i, step in enumerate(made) if step.edit == name]
+        if there:
+            step = made[there[0]]
+            made[there[0]] = replace(step, parameters={**step.parameters, **flags[name]})
+        else:
             _insert(made, Step(name, dict(flags[name])))
     if foot_plant is False:
         return tuple(step for step in made if step.edit != "foot_plant")

@@ -32,7 +32,14 @@ def show_table(
     from rich.console import Console
     from rich.table import Table
 
-    table = Table(title=title or None, title_justify="left", box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    table = Table(
+        title=title or None,
+        title_justify="left",
+        box=None,
+        pad_edge=False,
+        padding=(0, 2, 0, 0),
+        show_header=any(columns),
+    )
     for index, column in enumerate(columns):
         table.add_column(column, justify="right" if index >= numbers else "left", overflow="fold")
     for row in rows:

@@ -15,7 +15,8 @@ What = str | Path | Recipe | Iterable[Step]
 def resolve(what: What) -> Recipe:
     """Return the recipe that is meant: an emotion word, a recipe file, a recipe or a list of steps.
 
-    Raises ``RecipeError`` with the nearest emotion word when nothing of that name is known.
+    Raises ``RecipeError`` with the nearest emotion word when nothing of that name is known, or when
+    ``what`` is none of these.
     """
     if isinstance(what, Recipe):
         return what
@@ -27,7 +28,12 @@ def resolve(what: What) -> Recipe:
         if what not in PRESETS:
             raise RecipeError(unknown("emotion", what, PRESETS) + "; or give a recipe file (.toml or .json)")
         return preset(what)
-    return Recipe(name="steps", steps=tuple(what))
+    steps = tuple(what) if isinstance(what, Iterable) else (what,)
+    if not all(isinstance(step, Step) for step in steps):
+        raise RecipeError(
+            f"give an emotion word, a recipe file, a Recipe or a list of Steps, not {what!r:.80}"
+        )
+    return Recipe(name="steps", steps=steps)
 
 
 def edit(

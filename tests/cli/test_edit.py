@@ -1,0 +1,180 @@
+import hashlib
+import json
+import os
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import Result
+
+import mien
+from mien.emotion.files import read_recipe, write_recipe
+from mien.recipe import Recipe, Step
+
+Run = Callable[..., Result]
+
+
+def files(folder: Path) -> set[str]:
+    return {p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file()}
+
+
+def test_an_emotion_is_written_beside_the_clip(folder: Path, run: Run) -> None:
+    source = (folder / "walk.bvh").read_bytes()
+    result = run("edit", "walk.bvh", "--emotion", "sad")
+    assert (result.exit_code, result.stdout, result.stderr) == (0, "walk_sad.bvh\n", "")
+    assert (folder / "walk.bvh").read_bytes() == source
+    before, after = mien.load("walk.bvh"), mien.load("walk_sad.bvh")
+    assert after.skeleton.names == before.skeleton.names
+    assert len(after) == len(before)
+    assert after.frame_time == before.frame_time
+    same = mien.edit(before, "sad")
+    closeness = np.abs(np.einsum("tji,tji->tj", after.rotations, same.rotations))
+    assert closeness.min() > 1 - 1e-9, "the command line and Python do the same"
+
+
+def test_the_sidecar_says_what_was_done_and_replays_to_the_same_bytes(folder: Path, run: Run) -> None:
+    flags = ["--strength", 0.7, "--parts", "arms,head", "--span", "0.2,1.1", "--posture-head", 12]
+    assert run("edit", "walk.bvh", "-e", "sad", *flags).exit_code == 0
+    sidecar = Path("walk_sad.bvh.recipe.toml")
+    about = tomllib.loads(sidecar.read_text())["provenance"]
+    assert about == {
+        "input": "walk.bvh",
+        "input_sha256": hashlib.sha256(Path("walk.bvh").read_bytes()).hexdigest(),
+        "output": "walk_sad.bvh",
+        "mien": mien.__version__,
+    }
+    recipe = read_recipe(sidecar)
+    posture = next(step for step in recipe.steps if step.edit == "posture")
+    assert posture.parameters["head"] == 12
+    assert (posture.strength, posture.parts, posture.span) == (0.7, ("arms", "head"), (0.2, 1.1))
+    assert run("edit", "walk.bvh", "--recipe", sidecar, "-o", "again.bvh").exit_code == 0
+    assert Path("again.bvh").read_bytes() == Path("walk_sad.bvh").read_bytes()
+
+
+def test_flags_of_edits_make_a_clip_of_their_own(folder: Path, run: Run) -> None:
+    assert run("edit", "walk.bvh", "--posture-head", -20, "--no-foot-plant", "--no-sidecar").exit_code == 0
+    before, after = mien.load("walk.bvh"), mien.load("walk_edited.bvh")
+    changed = np.abs(np.einsum("tji,tji->tj", before.rotations, after.rotations)).min(axis=0) < 1 - 1e-6
+    assert {before.skeleton.names[j] for j in np.flatnonzero(changed)} == {"Neck", "Head"}
+    assert not Path("walk_edited.bvh.recipe.toml").exists()
+
+
+def test_time_edits_and_switches(folder: Path, run: Run) -> None:
+    assert run("edit", "walk.bvh", "--trim-start", 0.5, "--resample-fps", 60, "--mirror").exit_code == 0
+    after = mien.load("walk_edited.bvh")
+    assert after.fps == pytest.approx(60)
+    assert after.duration == pytest.approx(1.0, abs=1 / 30)
+    steps = [s.edit for s in read_recipe("walk_edited.bvh.recipe.toml").steps]
+    assert steps == ["trim", "resample", "mirror"]
+
+
+def test_a_recipe_file_and_a_pose_file(folder: Path, run: Run) -> None:
+    write_recipe(Recipe("mine", (Step("posture", {"trunk": 10.0}),)), folder / "mine.json")
+    assert run("edit", "walk.bvh", "-r", "mine.json").stdout == "walk_mine.bvh\n"
+    assert [s.edit for s in read_recipe("walk_mine.bvh.recipe.toml").steps] == ["posture"]
+    assert run("pose", "walk.bvh", "deeper/tired_walk.bvh", "-o", "tired.toml").stdout == "tired.toml\n"
+    assert run("edit", "walk.bvh", "--posture-pose", "tired.toml").exit_code == 0
+    posture = read_recipe("walk_edited.bvh.recipe.toml").steps[0]
+    assert "head" in posture.parameters["pose"], "the recipe holds the pose, not the name of a file"
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_folders_and_patterns_to_a_folder(folder: Path, run: Run, jobs: int) -> None:
+    result = run("edit", ".", "-e", "tired", "-o", "out", "--jobs", jobs, "--no-sidecar")
+    assert result.exit_code == 0
+    assert files(folder / "out") == {"walk_tired.bvh", "turn_tired.bvh", "deeper/tired_walk_tired.bvh"}
+    assert run("edit", "*.bvh", "-e", "tired", "-o", "out2", "--no-sidecar").exit_code == 0
+    for name in ("walk_tired.bvh", "turn_tired.bvh"):
+        assert (folder / "out" / name).read_bytes() == (folder / "out2" / name).read_bytes()
+
+
+def test_dry_run_says_what_would_be_done_and_writes_nothing(folder: Path, run: Run) -> None:
+    before = files(folder)
+    result = run("edit", "*.bvh", "-e", "sad", "--posture-head", 7, "-o", "out", "--dry-run")
+    assert result.exit_code == 0
+    assert f"walk.bvh -> {Path('out/walk_sad.bvh')}" in result.stdout
+    assert "posture head=7.0" in result.stdout
+    data = json.loads(run("edit", "*.bvh", "-e", "sad", "-n", "--json").stdout)
+    assert [f["input"] for f in data["files"]] == ["turn.bvh", "walk.bvh"]
+    assert data["steps"][-1]["edit"] == "foot_plant"
+    assert files(folder) == before
+
+
+def test_json_has_one_entry_a_clip(folder: Path, run: Run) -> None:
+    (folder / "bad.bvh").write_text("HIERARCHY\nROOT Hips\n")
+    result = run("edit", "*.bvh", "-e", "sad", "--json")
+    assert result.exit_code == 1
+    entries = {entry["input"]: entry for entry in json.loads(result.stdout)}
+    assert "error" in entries["bad.bvh"]
+    walk = entries["walk.bvh"]
+    assert walk["output"] == "walk_sad.bvh"
+    assert walk["frames"] == 46
+    assert walk["seconds"] == pytest.approx(1.5)
+    assert walk["steps"][-1] == "foot_plant"
+
+
+def test_strength_zero_gives_the_clip_back(folder: Path, run: Run) -> None:
+    assert run("edit", "walk.bvh", "-e", "angry", "--strength", 0).exit_code == 0
+    assert Path("walk_angry.bvh").read_bytes() == Path("walk.bvh").read_bytes()
+    assert read_recipe("walk_angry.bvh.recipe.toml").steps == ()
+
+
+def test_the_rate_in_the_header_can_be_overridden(folder: Path, run: Run) -> None:
+    assert run("edit", "walk.bvh", "--mirror", "--fps", 120).exit_code == 0
+    assert mien.load("walk_edited.bvh").fps == pytest.approx(120)
+    assert tomllib.loads(Path("walk_edited.bvh.recipe.toml").read_text())["provenance"]["fps"] == 120
+
+
+def test_a_map_file_tells_edits_which_joint_is_which(folder: Path, run: Run) -> None:
+    text = Path("walk.bvh").read_text()
+    walk = mien.load("walk.bvh")
+    for number, name in enumerate(walk.skeleton.names):
+        text = text.replace(f"ROOT {name}\n", f"ROOT q{number}\n").replace(
+            f"JOINT {name}\n", f"JOINT q{number}\n"
+        )
+    Path("odd.bvh").write_text(text)
+    head = f"q{walk.skeleton.names.index('Neck')}"  # on purpose not what would be found
+    Path("map.toml").write_text(f'[roles]\nhead = "{head}"\n')
+    assert run("edit", "odd.bvh", "--posture-head", 20, "--no-foot-plant", "--map", "map.toml").exit_code == 0
+    before, after = mien.load("odd.bvh"), mien.load("odd_edited.bvh")
+    changed = np.abs(np.einsum("tji,tji->tj", before.rotations, after.rotations)).min(axis=0) < 1 - 1e-6
+    assert [before.skeleton.names[j] for j in np.flatnonzero(changed)] == [head]
+
+
+def test_an_existing_output_is_refused_and_force_replaces_it(folder: Path, run: Run) -> None:
+    Path("walk_sad.bvh").write_text("mine")
+    result = run("edit", "walk.bvh", "-e", "sad")
+    assert result.exit_code == 2
+    assert result.stderr.startswith("mien: walk_sad.bvh exists already; use --force")
+    assert Path("walk_sad.bvh").read_text() == "mine"
+    assert run("edit", "walk.bvh", "-e", "sad", "--force").exit_code == 0
+    assert len(mien.load("walk_sad.bvh")) == 46
+
+
+def test_the_input_is_refused_as_output_but_may_be_replaced_by_force(folder: Path, run: Run) -> None:
+    assert run("edit", "walk.bvh", "--mirror", "-o", "walk.bvh").exit_code == 2
+    original = mien.load("walk.bvh")
+    assert run("edit", "walk.bvh", "--mirror", "-o", "walk.bvh", "--force").exit_code == 0
+    assert not np.allclose(mien.load("walk.bvh").rotations, original.rotations)
+
+
+def test_an_existing_sidecar_is_refused_before_anything_is_written(folder: Path, run: Run) -> None:
+    Path("walk_sad.bvh.recipe.toml").write_text("mine")
+    assert run("edit", "walk.bvh", "-e", "sad").exit_code == 2
+    assert not Path("walk_sad.bvh").exists()
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="root may write anywhere")
+def test_a_folder_that_may_not_be_written(folder: Path, run: Run) -> None:
+    Path("closed").mkdir(mode=0o500)
+    result = run("edit", "walk.bvh", "-e", "sad", "-o", "closed")
+    assert result.exit_code == 2
+    assert "closed" in result.stderr
+
+
+def test_nothing_half_written_is_left_behind(folder: Path, run: Run) -> None:
+    before = files(folder)
+    assert run("edit", "*.bvh", "-e", "sad", "--no-sidecar").exit_code == 0
+    assert files(folder) - before == {"walk_sad.bvh", "turn_sad.bvh"}, "no temporary file stays"
