@@ -73,15 +73,18 @@ class Body:
     def of(cls, motion: Motion, *, map: Mapping[str, str] | None = None) -> Self:
         """Find the body in ``motion``; ``map`` (role -> joint name) overrides what would be found.
 
-        Without it, the roles that the motion's skeleton keeps from a map file do.
+        Without it, the roles that the motion's skeleton keeps from a map file do. An edited motion has
+        the body of the motion it was made from: a head that an edit has bowed is not taken for upright.
         Raises ``BodyError`` with the joints and the lines to add to a map file when a needed role
         is not found.
         """
         chosen = map or motion.skeleton.roles
         key = (cls, tuple(sorted(chosen.items())))
-        known = _FOUND.setdefault(motion, {})
+        before = motion.reference
+        source = before if before is not None and before.skeleton is motion.skeleton else motion
+        known = _FOUND.setdefault(source, {})
         if key not in known:
-            known[key] = cls(**_find(motion, chosen))
+            known[key] = cls(**_find(source, chosen))
         return known[key]
 
     def joints(self, parts: tuple[str, ...]) -> list[int]:
@@ -121,6 +124,7 @@ def _find(motion: Motion, chosen: Mapping[str, str]) -> dict[str, Any]:
     found = topology.find(tree) | naming.chosen(skeleton, chosen)
     roles = {role: found[role] for role in ROLES if role in found}
     naming.require(skeleton, roles)
+    naming.check(tree, roles)
     chains = _chains(tree, roles)
     stood = stance.neutral(skeleton, tree, local, np.median(moved, axis=0), roles)
     leg = measures.leg_length(tree, roles)
