@@ -201,7 +201,7 @@ def test_a_knock_becomes_even_while_it_moves():
 
 
 def test_two_speeds_become_one_but_for_the_smoothing_of_speed():
-    """METHODS A4: below 2%. What is left lies within 0.1 s of the step, so it depends on the clip's length."""
+    """METHODS A4: below 2%. What is left lies within 0.1 s of the step: the longer the clip, the less."""
     t = np.arange(2001) / 100.0
     x = np.where(t < 10.0, t, 10.0 + 3.0 * (t - 10.0))
     speed, step = time_map.speed_curve(np.stack([x, 0 * x, 0 * x], -1), 0.01)

@@ -131,7 +131,8 @@ def _shown_frames(tips: dict[str, Array], motion: Motion, round_length: int, rul
     if not moving:
         return {}
     step = curves[0][1]
-    common = np.sum([speeds[name] / fast[name] for name in moving], axis=0)
+    # Rounded, so that in a rest it is not the last bits that say where it is slowest.
+    common = np.sum([speeds[name] / fast[name] for name in moving], axis=0).round(3)
     # A loop is cut open where the limbs are slowest, so that its seam is like any other border.
     start = int(np.argmin(common)) if wrap else 0
     borders = time_map.segment_borders(np.roll(common, -start), rule.longest / step)

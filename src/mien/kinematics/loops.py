@@ -13,9 +13,12 @@ from .heading import heading_free
 # What lies beyond the ends of a clip: its other end if it is a loop, the held pose, or its other end.
 Boundary = Literal["auto", "hold", "wrap"]
 
-# In root mean square steps from frame to frame, over all joints.
-SAME_POSE, SAME_SPEED, FOLLOWS = 0.25, 1.5, 0.75
 SHORTEST = 8
+# In root mean square steps from frame to frame: how near the last pose is to the first to be its
+# repetition, and how rough the seam of any other loop may be.
+SAME_POSE, SMOOTH = 0.25, 1.1
+# How much rougher than the roughest place inside the seam may be.
+ROUGHER = 1.2
 
 
 def period(motion: Motion, body: Body, boundary: Boundary) -> int:
@@ -33,23 +36,25 @@ def period(motion: Motion, body: Body, boundary: Boundary) -> int:
 def loop_length(rotations: Array) -> int:
     """Return the frames of one round of a looping motion ``(T, J, 4)``, or 0 where it does not loop.
 
-    T - 1 where the last frame repeats the first, T where the first follows the last. The rotations must
-    be free of heading, so that a walk that turns may loop.
+    T - 1 where the last frame repeats the first, T where the first follows the last. A loop goes on over
+    its seam about as smoothly as inside. The rotations must be free of heading, so that a walk that
+    turns may loop.
     """
     frames = len(rotations)
     if frames < SHORTEST:
         return 0
-    cosine = np.abs(np.einsum("tji,tji->tj", rotations[1:], rotations[:-1]))
-    step = 2.0 * np.sqrt(2.0 * np.maximum(1.0 - cosine, 0.0).mean()) + 1e-6
-    first, last, seam = (_turn(rotations[a], rotations[b]) for a, b in ((0, 1), (-2, -1), (-1, 0)))
-    if _size(seam) <= SAME_POSE * step and _size(first - last) <= SAME_SPEED * step:
-        return frames - 1
-    return frames if _size(seam - 0.5 * (first + last)) <= FOLLOWS * step else 0
+    q = quaternion.continuous(np.concatenate([rotations, rotations[:2]]))
+    step = _size(np.diff(q[:frames], axis=0)).mean() + 1e-9
+    inside = _size(np.diff(q[:frames], n=2, axis=0)).max() + 1e-9
+    if _size(q[frames : frames + 1] - q[frames - 1 : frames])[0] <= SAME_POSE * step:
+        closed = quaternion.continuous(np.concatenate([q[frames - 3 : frames - 1], q[:2]]))
+        if _size(np.diff(closed, n=2, axis=0)).max() <= ROUGHER * inside:
+            return frames - 1
+    seam = _size(np.diff(q[frames - 2 :], n=2, axis=0)).max()
+    return frames if seam <= min(SMOOTH * step, ROUGHER * inside) else 0
 
 
-def _turn(a: Array, b: Array) -> Array:
-    return quaternion.log(quaternion.multiply(quaternion.conjugate(a), b))
-
-
-def _size(turns: Array) -> float:
-    return float(np.sqrt((turns**2).sum(axis=-1).mean()))
+def _size(differences: Array) -> Array:
+    """Return the root mean square over the joints of differences of quaternions, for each frame."""
+    size: Array = np.sqrt(np.einsum("tji,tji->t", differences, differences) / differences.shape[1])
+    return size
