@@ -77,6 +77,8 @@ def foot_plant(
     after = _shifted(after, -drop[:, None] * body.up, body)
     rotations = np.array(after.motion.rotations)
     for foot, goal in enumerate(goals):
+        if goal.met and not drop.any():
+            continue
         _bend_leg(rotations, before, after, goal, contacts.feet[:, foot], body, foot)
     return after.motion.with_(rotations=quaternion.continuous(rotations))
 
@@ -140,11 +142,15 @@ def _settled(contacts: Contacts, frame_time: float) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class _Goal:
-    """Where an ankle must be (T, 3), how its foot must be turned (T, 4), and how much it stands (T,)."""
+    """Where an ankle must be (T, 3), how its foot must be turned (T, 4), and how much it stands (T,).
+
+    ``met`` says that the edited leg is there already.
+    """
 
     ankle: Array
     turn: Array
     stands: Array
+    met: bool
 
 
 def _goal(before: _Pose, after: _Pose, contacts: Contacts, body: Body, foot: int, blend: float) -> _Goal:
@@ -159,15 +165,16 @@ def _goal(before: _Pose, after: _Pose, contacts: Contacts, body: Body, foot: int
     astray = quaternion.multiply(before.rotations[:, ankle], quaternion.conjugate(after.rotations[:, ankle]))
     reach = round(blend / dt)
     offset = curve_gaps(wrong, planted, reach=reach)
-    turn = quaternion.exp(curve_gaps(quaternion.log(astray), planted, reach=reach))
-    turn = quaternion.multiply(turn, after.rotations[:, ankle])
+    turned = curve_gaps(quaternion.log(astray), planted, reach=reach)
+    turn = quaternion.multiply(quaternion.exp(turned), after.rotations[:, ankle])
     stands = curve_gaps(planted.astype(float), planted, reach=reach)
     goal = here + offset
     scraping = np.where(planted, 0.0, _sunk(before, after, goal, turn, body, foot, CLEARANCE))
     goal += (envelope(scraping, reach=round(0.12 / dt)) * _clear(planted, dt, 0.06))[:, None] * body.up
     sunk = np.where(planted, 0.0, _sunk(before, after, goal, turn, body, foot, 0.0))
     goal += envelope(sunk, reach=round(0.05 / dt))[:, None] * body.up
-    return _Goal(goal, turn, stands)
+    met = np.abs(goal - here).max() <= 1e-9 * body.leg_length and np.abs(turned).max() <= 1e-9
+    return _Goal(goal, turn, stands, bool(met))
 
 
 def _clear(planted: Mask, frame_time: float, seconds: float) -> Array:
@@ -258,15 +265,11 @@ def _bend_leg(
 ) -> None:
     """In place: bend one leg so that its ankle and foot reach the goal; the toes stand as in the original."""
     hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
-    leg, parents = body.leg_length, after.motion.skeleton.parents
-    there = after.positions[:, ankle]
-    turned = np.abs(np.einsum("ti,ti->t", goal.turn, after.rotations[:, ankle])) < 1 - 1e-15
-    if not (np.abs(goal.ankle - there) > 1e-9 * leg).any() and not turned.any():
-        return
+    parents = after.motion.skeleton.parents
     upper, lower = two_bone(
         after.positions[:, hip],
         after.positions[:, knee],
-        there,
+        after.positions[:, ankle],
         _reachable(before, after, goal, planted, body, foot),
         quaternion.rotate(after.rotations[:, hip], _hinge(before, body, foot)),
     )

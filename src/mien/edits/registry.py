@@ -10,6 +10,7 @@ from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from ..errors import RecipeError, unknown
+from ..kinematics.lead_in import lead_in, with_lead_in, without_lead_in
 from ..motion import Motion
 from ..recipe import Step
 
@@ -67,13 +68,19 @@ class Edit:
     parameters: Mapping[str, Parameter]
 
     def perform(self, motion: Motion, values: Mapping[str, Any], *, original: Motion | None = None) -> Motion:
-        """Run the edit with checked values, giving a repair the reference and carrying that along."""
+        """Run the edit with checked values, giving a repair the reference and carrying that along.
+
+        A still at the start of the capture, such as a T-pose, is no movement and is left as it is.
+        """
         reference = motion.reference or motion
-        extra = {"original": original or reference} if self.kind == "repair" else {}
-        after = self.run(motion, **values, **extra)
         if self.kind == "time":
-            reference = after if reference is motion else self.run(reference, **values)
-        return after.with_(reference=reference)
+            after = self.run(motion, **values)
+            return after.with_(reference=after if reference is motion else self.run(reference, **values))
+        original = original or reference
+        still = lead_in(original) if len(original) == len(motion) else 0
+        extra = {"original": without_lead_in(original, still)} if self.kind == "repair" else {}
+        after = self.run(without_lead_in(motion, still), **values, **extra)
+        return with_lead_in(after, motion, still).with_(reference=reference)
 
     def complete(self, given: Mapping[str, Any]) -> dict[str, Any]:
         """Return all parameters: those given, checked, and the defaults of the others."""

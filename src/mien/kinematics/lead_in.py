@@ -1,0 +1,47 @@
+"""The still that many captures start with: a T-pose, and the few frames that rush from it to the action.
+
+Such frames are no movement. Filtered or retimed with the rest they would smear into it, so edits leave
+them out.
+"""
+
+import numpy as np
+
+from ..motion import Motion
+
+LONGEST = 0.25  # seconds
+JUMP = 0.026  # radians, on average over the joints: one and a half degrees from one frame to the next
+
+
+def lead_in(motion: Motion) -> int:
+    """Return how many frames at the start belong to a still such as a T-pose, 0 where there is none.
+
+    Such frames are left by a jump of more than one and a half degrees on average over the joints, and by turns
+    more than twice as fast as nine in ten later frames; they lie within the first quarter second.
+    """
+    within = int(LONGEST / motion.frame_time) + 1
+    if len(motion) < within + 4:
+        return 0
+    q = motion.rotations
+    same = np.abs(np.einsum("tji,tji->tj", q[1:], q[:-1]))
+    turn = 2.0 * np.arccos(np.minimum(same, 1.0)).mean(axis=1)
+    rushed = turn[:within] > max(2.0 * float(np.percentile(turn[within:], 90)), 0.25 * JUMP)
+    mostly = np.cumsum(rushed) >= 0.75 * np.arange(1, within + 1)
+    return int(np.flatnonzero(rushed & mostly)[-1]) + 1 if rushed[0] and turn[0] > JUMP else 0
+
+
+def without_lead_in(motion: Motion, frames: int) -> Motion:
+    """Return the motion with its first ``frames`` standing still in the pose that follows them."""
+    if not frames:
+        return motion
+    rotations, translations = np.array(motion.rotations), np.array(motion.translations)
+    rotations[:frames], translations[:frames] = rotations[frames], translations[frames]
+    return motion.with_(rotations=rotations, translations=translations)
+
+
+def with_lead_in(motion: Motion, source: Motion, frames: int) -> Motion:
+    """Return the motion with its first ``frames`` taken from ``source``."""
+    if not frames:
+        return motion
+    rotations, translations = np.array(motion.rotations), np.array(motion.translations)
+    rotations[:frames], translations[:frames] = source.rotations[:frames], source.translations[:frames]
+    return motion.with_(rotations=rotations, translations=translations)
