@@ -30,8 +30,17 @@ html_title = f"mien {version}"
 html_static_path = ["_static"]
 
 
+def without_builtin_text(
+    app: object, what: str, name: str, obj: object, options: object, lines: list
+) -> None:
+    """Drop what Python says of every dict and tuple; the page says what this one holds."""
+    if what == "data":
+        lines.clear()
+
+
 def setup(app: object) -> None:
     """Make the pictures before the pages that show them."""
     from pictures import make_all
 
+    app.connect("autodoc-process-docstring", without_builtin_text)
     make_all(HERE / "_static")
