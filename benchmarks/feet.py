@@ -148,16 +148,23 @@ def report(rows, names, worst):
         head
         + "skating frames before, after; ankle jerk ratio, median and 95th percentile; fastest knee deg/frame"
     )
-    print(
-        f"{'preset':<24}{'slide cm':>9}{'<=0.2':>7}{'sink cm':>9}{'<=1':>7}{'skate0':>8}{'skate':>7}{'jerk':>7}{'p95':>7}{'knee0':>7}{'knee':>7}"
-    )
+    heads = ("slide cm", "<=0.2", "sink cm", "<=1", "skate0", "skate", "jerk", "p95", "knee0", "knee")
+    print(f"{'preset':<20}" + "".join(f"{h:>9}" for h in heads))
     for name in names:
         v = np.array([r[2] for r in rows if r[1] == name])
-        print(
-            f"{name:<24}{v[:, 0].max():9.2f}{(v[:, 0] <= 0.2).mean():7.1%}{v[:, 2].max():9.2f}{(v[:, 2] <= 1).mean():7.1%}"
-            f"{v[:, 3].mean():8.1%}{v[:, 4].mean():7.1%}{np.median(v[:, 5]):7.2f}{np.percentile(v[:, 5], 95):7.2f}"
-            f"{v[:, 7].max():7.1f}{v[:, 6].max():7.1f}"
-        )
+        shown = [
+            f"{v[:, 0].max():.2f}",
+            f"{(v[:, 0] <= 0.2).mean():.1%}",
+            f"{v[:, 2].max():.2f}",
+            f"{(v[:, 2] <= 1).mean():.1%}",
+            f"{v[:, 3].mean():.1%}",
+            f"{v[:, 4].mean():.1%}",
+            f"{np.median(v[:, 5]):.2f}",
+            f"{np.percentile(v[:, 5], 95):.2f}",
+            f"{v[:, 7].max():.0f}",
+            f"{v[:, 6].max():.0f}",
+        ]
+        print(f"{name:<20}" + "".join(f"{cell:>9}" for cell in shown))
     print("\nworst slides")
     for r in sorted(rows, key=lambda r: -r[2][0])[:worst]:
         print(f"  {r[2][0]:6.2f} cm (source {r[2][1]:.2f}) {r[1]:<20} {r[0]}")
