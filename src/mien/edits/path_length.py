@@ -77,9 +77,9 @@ def path_length(
     body = Body.of(motion)
     hips = body.roles["hips"]
     joints = motion.skeleton.descendants(hips)
-    frames = period(motion, body, boundary)
-    change = _filter(mode, motion.fps, (low, mid, high), (edge_low, edge_high), frames > 0)
     rotations, frame = heading_free(motion, body)
+    frames = period(rotations[:, joints], boundary)
+    change = _filter(mode, motion.fps, (low, mid, high), (edge_low, edge_high), frames > 0)
     u, v = directions.axes(main_bones(motion.skeleton))
     for some in _chunks(joints, len(motion)):
         before = rotations[:, some]

@@ -17,7 +17,7 @@ import numpy as np
 from ..kinematics.body import Body
 from ..kinematics.bones import main_bones
 from ..kinematics.fk import world
-from ..kinematics.heading import heading_rotation
+from ..kinematics.heading import heading_free, heading_rotation
 from ..kinematics.loops import Boundary, period
 from ..motion import Motion
 from ..rotations import quaternion
@@ -82,7 +82,8 @@ def timing(
     body = Body.of(motion)
     longest = segment or (SEGMENT_ACCELERATED if acceleration > 0.0 else SEGMENT_EVEN)
     rule = _Rule(acceleration, mode, rests, longest, steepest, REST * body.leg_length)
-    round_length = period(motion, body, boundary)
+    below = motion.skeleton.descendants(body.roles["hips"])
+    round_length = period(heading_free(motion, body)[0][:, below], boundary)
     tips = _tips(motion, body, [name for name in limbs if body.limbs.get(name)], relative == "heading")
     rotations, translations = np.array(motion.rotations), np.array(motion.translations)
     for name, at in _shown_frames(tips, motion, round_length, rule).items():

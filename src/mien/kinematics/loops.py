@@ -4,11 +4,8 @@ from typing import Literal
 
 import numpy as np
 
-from ..motion import Motion
 from ..rotations import quaternion
 from ..typing import Array
-from .body import Body
-from .heading import heading_free
 
 # What lies beyond the ends of a clip: its other end if it is a loop, the held pose, or its other end.
 Boundary = Literal["auto", "hold", "wrap"]
@@ -21,16 +18,14 @@ SAME_POSE, SMOOTH = 0.25, 1.1
 ROUGHER = 1.2
 
 
-def period(motion: Motion, body: Body, boundary: Boundary) -> int:
-    """Return the frames of one round of a clip as ``boundary`` wants it, 0 where the ends are held.
+def period(rotations: Array, boundary: Boundary) -> int:
+    """Return the frames of one round of a motion as ``boundary`` wants it, 0 where the ends are held.
 
-    ``wrap`` takes a clip that does not look like a loop for one round.
+    ``rotations`` as for ``loop_length``. ``wrap`` takes what does not look like a loop for one round.
     """
     if boundary == "hold":
         return 0
-    below = motion.skeleton.descendants(body.roles["hips"])
-    found = loop_length(heading_free(motion, body)[0][:, below])
-    return found or (len(motion) if boundary == "wrap" else 0)
+    return loop_length(rotations) or (len(rotations) if boundary == "wrap" else 0)
 
 
 def loop_length(rotations: Array) -> int:
