@@ -41,21 +41,27 @@ def posture() -> "Image":
 
 
 def timing() -> "Image":
-    """One stroke of a wave, even and rushed."""
-    stroke = Step("trim", {"start": 0.8, "end": 2.0})
+    """Show two strokes of a wave: even, as it was, and rushed."""
+    strokes = Step("trim", {"start": 1.2, "end": 2.4})
     wave = samples.wave().motion
     rows = {
-        f"acceleration {a:g}": mien.apply(wave, [Step("timing", {"acceleration": a}), stroke])
-        for a in (-0.8, 0.8)
+        f"acceleration {a:g}": mien.apply(wave, [Step("timing", {"acceleration": a}), strokes])
+        for a in (-0.8, 0.0, 0.8)
     }
-    return render.compare(rows, against=mien.apply(wave, [stroke]), poses=12, views=["side"])
+    return render.compare(rows, poses=12, views=["front"])
 
 
 def foot_plant() -> "Image":
-    """Shorter paths without and with the repair."""
-    calm = walk()
-    short = mien.apply(calm, [Step("path_length", {"mid": 0.4})])
-    return render.compare({"without": short, "with foot_plant": mien.apply(short, [Step("foot_plant")])})
+    """Show one step with shorter paths, seen by a camera that stays: without and with the repair."""
+    short = mien.apply(walk(), [Step("path_length", {"mid": 0.4})])
+    step = Step("trim", {"start": 0.75, "end": 1.15})
+    rows = {"without foot_plant": short, "with foot_plant": mien.apply(short, [Step("foot_plant")])}
+    return below(
+        *(
+            render.strip(mien.apply(m, [step]), travel=True, views=["side"], poses=4, title=title)
+            for title, m in rows.items()
+        )
+    )
 
 
 def trim() -> "Image":

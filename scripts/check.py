@@ -1,8 +1,9 @@
 """All checks of the project, in an environment of their own: ``python3.11 scripts/check.py``.
 
 Makes ``.venv`` (kept for the next time), installs mien with its development tools, runs ruff, mypy and
-pytest, builds the wheel, installs it in a second, empty environment and runs the demo there. Needs
-Python 3.11 and a package registry; nothing else. What is given after the name goes to pytest.
+pytest, builds the documentation and the wheel, installs that in a second, empty environment and runs the
+demo there. Needs Python 3.11 and a package registry; nothing else. What is given after the name goes to
+pytest.
 """
 
 import shutil
@@ -59,13 +60,14 @@ def main() -> None:
     python = environment(ROOT / ".venv")
     install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     run("pip that knows dependency groups", *install, "--upgrade", "pip>=25.1")
-    run("install mien and its tools", *install, "--editable", ".[all]", "--group", "dev")
+    run("install mien and its tools", *install, "--editable", ".[all]", "--group", "dev", "--group", "docs")
     run("ruff check", python, "-m", "ruff", "check", ".")
     run("ruff format", python, "-m", "ruff", "format", "--check", ".")
     run("mypy", python, "-m", "mypy")
     run("pytest", python, "-m", "pytest", "-n", "2", *sys.argv[1:])
     place = Path(tempfile.mkdtemp(prefix="mien-check-"))
     try:
+        run("documentation", python, "-m", "sphinx", "-q", "-W", "--keep-going", "docs", place / "docs")
         check_wheel(python, place)
     finally:
         shutil.rmtree(place, ignore_errors=True)
