@@ -129,6 +129,8 @@ def _find(motion: Motion, chosen: Mapping[str, str]) -> dict[str, Any]:
     stood = stance.neutral(skeleton, tree, local, np.median(moved, axis=0), roles)
     leg = measures.leg_length(tree, roles)
     sole = measures.soles(skeleton, stood.heights, roles, leg)
+    for shared in (stood.up, stood.forward, stood.rotations):
+        shared.setflags(write=False)
     return {
         "roles": roles,
         **chains,

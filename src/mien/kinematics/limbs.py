@@ -97,6 +97,8 @@ def two_bones(body: Tree, pair: Pair, kind: str, scale: float) -> Limbs | None:
     for choice in combinations(range(size), 3):
         if all(p.fits(choice, kind) for p in paths):
             score = sum(p.score(choice, kind, scale) for p in paths)
+            apart = body.distance(paths[0].nodes[choice[0]], paths[1].nodes[choice[0]])
+            score -= 8.0 * max(0.0, 0.3 - apart / scale) if kind == "arm" else 0.0  # shoulders, not collars
             best, most = (choice, score) if score > most else (best, most)
     if best is None:
         return None
@@ -130,6 +132,18 @@ class _Path:
             self.body.is_joint(last) and min(self.length[i, j], self.length[j, k]) > 0.02 * self.length.max()
         )
 
+    def turns(self, place: int) -> bool:
+        """Say whether a node of the path turns in the clip at all: helpers and file axes do not."""
+        return bool(self.body.turning[self.nodes[place]] > 1e-3)
+
+    def bend(self, a: int, middle: int, b: int) -> float:
+        """Return how crooked a bone with a joint inside is: its bend in the typical frame, 0.4 at most."""
+        sides = self.length[a, middle], self.length[middle, b]
+        if min(sides) < 1e-9 * self.length[a, b]:
+            return 0.0
+        cosine = (sides[0] ** 2 + sides[1] ** 2 - self.length[a, b] ** 2) / (2.0 * sides[0] * sides[1])
+        return min(0.4, float(np.pi - np.arccos(np.clip(cosine, -1.0, 1.0))))
+
     def score(self, choice: Triple, kind: str, scale: float) -> float:
         """Rate a choice: stiff, straight, bending in the middle, of human size, rightly named."""
         i, j, k = choice
@@ -138,7 +152,8 @@ class _Path:
         path = float(self.body.bones[self.nodes[i + 1 : k + 1]].sum())
         beyond = float(self.body.reach[end]) / (upper + lower if kind == "leg" else scale)
         total = -8.0 * (1.0 - (upper + lower) / path) - 10.0 * (self.spread[i, j] + self.spread[j, k])
-        total += min(5.0 * self.spread[i, k], 0.5) + 0.5 * (self.body.turning[end] > 1e-3)
+        total += min(5.0 * self.spread[i, k], 0.5) + 0.5 * (self.turns(i) + self.turns(k))
+        total -= sum(self.bend(a, n, b) for a, b in ((i, j), (j, k)) for n in range(a + 1, b))
         total += 1e-3 * root - 3.0 * max(0.0, 0.1 - beyond)
         if kind == "leg":
             total += 2.0 * (upper + lower) / scale - 12.0 * np.log(upper / lower) ** 2
@@ -147,7 +162,7 @@ class _Path:
             usual = np.log([upper / scale / _ARM_BONES[0], lower / scale / _ARM_BONES[1]])
             total -= 8.0 * float(usual @ usual)
         said = zip((root, middle, end), _ROLES[kind], strict=True)
-        return float(total) + sum(_name_score(self.body, node, role) for node, role in said)
+        return float(total) + sum(name_score(self.body, node, role) for node, role in said)
 
 
 def _foot_angle(body: Tree, knee: int, ankle: int) -> float:
@@ -159,7 +174,7 @@ def _foot_angle(body: Tree, knee: int, ankle: int) -> float:
     return float(np.mean(1.0 - np.einsum("fi,fi->f", unit(shank), unit(foot)).clip(0.0, 1.0)))
 
 
-def _name_score(body: Tree, node: int, role: str) -> float:
+def name_score(body: Tree, node: int, role: str) -> float:
     """Rate a name for a role: the fewer other roles it may mean, the more it counts."""
     if not body.is_joint(node):
         return 0.0

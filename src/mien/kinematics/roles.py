@@ -2,15 +2,16 @@
 
 import tomllib
 from collections.abc import Mapping
+from itertools import pairwise
 from pathlib import Path
 
 from ..errors import BodyError, unknown
 from ..motion import Skeleton
+from .topology import SIDES as SIDES
+from .topology import TRUNK as TRUNK
 from .tree import Tree
 
-SIDES = ("left", "right")
 ARM, LEG = ("collar", "shoulder", "elbow", "wrist"), ("hip", "knee", "ankle", "toe")
-TRUNK = ("hips", "spine", "chest", "neck", "head")
 ROLES = (*TRUNK, *(f"{s}_{r}" for s in SIDES for r in ARM + LEG))
 OPTIONAL = {*TRUNK[1:], *(f"{s}_{r}" for s in SIDES for r in ("collar", "wrist", "toe"))}
 
@@ -61,6 +62,28 @@ def require(skeleton: Skeleton, roles: Mapping[str, int]) -> None:
         f"Its joints are: {', '.join(skeleton.names)}. If it is a whole humanoid, write these lines "
         f"with its joint names into a file and give it with --map FILE:\n[roles]\n{lines}"
     )
+
+
+def check(tree: Tree, roles: Mapping[str, int]) -> None:
+    """Raise ``BodyError`` if roles share a joint or a limb does not hang together (a wrong map)."""
+    taken: dict[int, str] = {}
+    for role, joint in roles.items():
+        if joint in taken:
+            raise BodyError(f"{taken[joint]} and {role} are both the joint {tree.names[joint]!r}")
+        taken[joint] = role
+    for above, below in _LINES:
+        if above in roles and below in roles and not tree.between(roles[above], roles[below]):
+            raise BodyError(
+                f"{below} ({tree.names[roles[below]]!r}) does not hang below {above} "
+                f"({tree.names[roles[above]]!r}); correct the map file"
+            )
+
+
+_LINES = (
+    *(("hips", r) for r in ("spine", "chest", "neck", "head")),
+    *(("hips", f"{s}_{r}") for s in SIDES for r in ("hip", "shoulder")),
+    *((f"{s}_{a}", f"{s}_{b}") for s in SIDES for chain in (ARM, LEG) for a, b in pairwise(chain)),
+)
 
 
 def limbs(roles: Mapping[str, int]) -> dict[str, tuple[int, ...]]:

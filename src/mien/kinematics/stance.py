@@ -22,7 +22,9 @@ SIDES = ("left", "right")
 
 ARM_OUT = np.radians(8.0)  # upper arms off the vertical, so that hands pass the thighs
 ELBOW_BEND = np.radians(10.0)  # relaxed elbows are never quite straight
+NECK = np.radians(10.0)  # a neck taken from the clip is set to lean this far to the front
 STILL = 0.01  # radians: a joint that turns less in a whole clip is part of the file's axes
+LEAN = np.radians(5.0)  # an upright trunk, hip joints to shoulder joints, leans no more than this
 NEAR_AXIS = np.radians(15.0)  # rest poses this near to a world axis mean that axis
 
 
@@ -42,25 +44,32 @@ def neutral(skeleton: Skeleton, body: Tree, local: Array, offsets: Array, roles:
     ``local`` (F, J, 4) are the rotations of the frames that ``body`` was made of, ``offsets`` (J, 3)
     the typical translations.
     """
-    start = _rest(body, local, roles["hips"])
+    above = body.ancestors(roles["hips"])[1:]
+    start = _rest(body, local, above)
     rest = fk(start[None], offsets[None], skeleton.parents)[1][0]
     points = np.moveaxis(body.points[: len(skeleton)], 0, 1)
     standing = is_body(rest, roles)
     up = up_axis(points, rest if standing else None, roles)
+    if above:  # a still root may also turn the whole clip about up: that is heading and no file axis
+        yaw = quaternion.conjugate(quaternion.twist(start[above[-1]], up))
+        start[above[-1]], rest = quaternion.multiply(yaw, start[above[-1]]), quaternion.rotate(yaw, rest)
     forward = _near_axis(_facing(rest, roles, up)) if standing else usual_front(up)
     if not standing:
-        start = calm_pose(local, body.world, points, roles, up)
+        axes, start = start[above], calm_pose(local, points, roles, up)
+        start[above] = axes
     pose = _Pose(start, offsets, skeleton)
     own_up = _near_axis(body_up(rest, roles)) if standing else _trunk(pose.points, roles)
     stand(pose, roles, own_up, up, forward)
+    if not standing and {"neck", "head"} <= roles.keys():
+        pose.aim(roles["neck"], roles["head"], np.cos(NECK) * up + np.sin(NECK) * forward)
     return Stance(up, forward, pose.local(), pose.heights(up))
 
 
-def _rest(body: Tree, local: Array, hips: int) -> Array:
+def _rest(body: Tree, local: Array, above: list[int]) -> Array:
     """Return zero rotations (J, 4), but those above the hips that stand still as they are: file axes."""
     start = np.tile(quaternion.IDENTITY, (len(body.names), 1))
-    above = [j for j in body.ancestors(hips)[1:] if body.turning[j] < STILL]
-    start[above] = local[0, above]
+    still = [j for j in above if body.turning[j] < STILL]
+    start[still] = local[0, still]
     return start
 
 
@@ -132,22 +141,17 @@ def _middle(points: Array, roles: Roles, role: str) -> Array:
     return 0.5 * (points[..., roles[f"left_{role}"], :] + points[..., roles[f"right_{role}"], :])
 
 
-def calm_pose(local: Array, world: Array, points: Array, roles: Roles, up: Array) -> Array:
+def calm_pose(local: Array, points: Array, roles: Roles, up: Array) -> Array:
     """Return the mean local rotations (J, 4) of the quarter of the frames that stand straightest.
 
-    Local and world rotations (F, J, 4), positions (F, J, 3). The hips come in world axes, all turned
-    to the heading of one frame.
+    Local rotations (F, J, 4), positions (F, J, 3). The hips are of no use: they hold the heading.
     """
     score = _trunk(points, roles) @ up
     for side in SIDES:
         for a, b, weight in (("hip", "knee", 1.0), ("knee", "ankle", 1.0), ("shoulder", "elbow", 0.5)):
             bone = points[:, roles[f"{side}_{a}"]] - points[:, roles[f"{side}_{b}"]]
             score = score + weight * (unit(bone) @ up)
-    best = np.sort(np.argsort(-score, kind="stable")[: max(1, len(points) // 4)])
-    chosen, hips = np.array(local[best]), roles["hips"]
-    facing = _facing(points[best], roles, up)
-    yaw = np.arctan2(np.cross(facing[:1], facing) @ up, facing @ facing[0])
-    chosen[:, hips] = quaternion.multiply(quaternion.exp(-yaw[:, None] * up), world[best, hips])
+    chosen = local[np.sort(np.argsort(-score, kind="stable")[: max(1, len(points) // 4)])]
     sign = np.where(np.einsum("fji,ji->fj", chosen, chosen[0]) < 0, -1.0, 1.0)
     return quaternion.normalise((chosen * sign[..., None]).sum(axis=0))
 
@@ -183,6 +187,9 @@ class _Pose:
 def stand(pose: _Pose, roles: Roles, own_up: Array, up: Array, forward: Array) -> None:
     """Stand a pose upright: ``own_up`` along ``up``, facing ``forward``, legs straight down, arms down."""
     pose.turn(roles["hips"], quaternion.between(own_up, up))
+    upright = quaternion.log(quaternion.between(_trunk(pose.points, roles), up))
+    angle = float(np.linalg.norm(upright))
+    pose.turn(roles["hips"], quaternion.exp(upright * max(0.0, 1.0 - LEAN / max(angle, 1e-12))))
     facing = _facing(pose.points, roles, up)
     yaw = np.arctan2(np.cross(facing, forward) @ up, facing @ forward)
     pose.turn(roles["hips"], quaternion.exp(yaw * up))

@@ -14,13 +14,14 @@ from .limbs import Limbs
 from .tree import Tree, unit
 
 SIDES = ("left", "right")
+TRUNK = ("hips", "spine", "chest", "neck", "head")
 
 
 def find(body: Tree) -> dict[str, int]:
-    """Return role -> joint for what the shape (and the names) show; roles not seen are absent."""
+    """Return role -> joint for what shape and names show, else names alone; roles not seen are absent."""
     both = _four_limbs(body)
     if both is None:
-        return {}
+        return _by_name(body)
     leg, arm = _left_first(body, *both)
     roles = _trunk(body, leg, arm)
     for side, (hip, knee, ankle), (shoulder, elbow, wrist) in zip(SIDES, leg, arm, strict=True):
@@ -46,6 +47,21 @@ def _four_limbs(body: Tree) -> tuple[Limbs, Limbs] | None:
     return (leg, arm) if leg and arm else None
 
 
+def _by_name(body: Tree) -> dict[str, int]:
+    """Return the roles that the names alone speak of, from the root outward."""
+    roles: dict[str, int] = {}
+    for joint, name in enumerate(body.names):
+        side, said = names.side_of(name), names.roles_of(name)
+        order = ("hip", "knee", "ankle", "toe", "collar", "shoulder", "elbow", "wrist") if side else TRUNK
+        free = [r for r in order if r in said and f"{side}_{r}".lstrip("_") not in roles]
+        if free:
+            roles[f"{side}_{free[0]}".lstrip("_")] = joint
+    for side in SIDES:  # a "shoulder" with nothing between it and the elbow is the upper arm
+        if f"{side}_shoulder" not in roles and {f"{side}_collar", f"{side}_elbow"} <= roles.keys():
+            roles[f"{side}_shoulder"] = roles.pop(f"{side}_collar")
+    return roles
+
+
 def _leg_length(body: Tree, leg: Limbs) -> float:
     return sum(body.distance(a, b) for a, b in pairwise(leg[0]))
 
@@ -57,15 +73,18 @@ def _toe(body: Tree, hip: int, ankle: int) -> int | None:
 
 
 def _collar(body: Tree, chest: int, shoulder: int) -> int | None:
-    """Return the joint between chest and shoulder that carries the collar bone: the first with a length."""
+    """Return the joint between chest and shoulder that carries the collar bone.
+
+    Of those with a good part of the way beyond them: the one best named, then one that turns in the
+    clip, then the first (the last where names say nothing against it: those above are helpers).
+    """
     line = body.between(chest, shoulder)
-    if len(line) < 2:
-        return None
     whole = sum(body.bones[n] for n in line[1:])
-    named = [n for n in line[:-1] if "collar" in names.roles_of(body.names[n])]
-    long = [n for n, after in pairwise(line) if body.bones[after] > 0.25 * whole]
-    both = [n for n in named if n in long]
-    return (both or long or named or line)[0]
+    long = [n for n, after in pairwise(line) if body.bones[after] > 0.25 * whole] or line[:-1]
+    named = [limbs.name_score(body, n, "collar") for n in long]
+    place = [i if score > 0 else -i for i, score in enumerate(named)]
+    ranked = zip(named, [body.turning[n] > 1e-3 for n in long], place, long, strict=True)
+    return max(ranked)[-1] if long else None
 
 
 # ---- left and right ---------------------------------------------------------------------------
