@@ -24,17 +24,16 @@ def pendulum(
     return sample("pendulum", figure, Truth(contacts, angles, facts=facts), **form)
 
 
-def spin(*, seconds: float = 2.0, angle: float = 4.0 * np.pi, **form: Unpack[Form]) -> Sample:
-    """Turn the stiff body about the vertical by ``angle`` radians at constant speed, two whole turns.
+def spin(*, seconds: float = 2.0, rate: float = 2.0 * np.pi, **form: Unpack[Form]) -> Sample:
+    """Turn the stiff body about the vertical at ``rate`` radians a second: 720 degrees in two seconds.
 
     Nothing is planted: the figure turns as if on a plate.
     """
     t = times(seconds, form)
-    yaw = angle * t / seconds if seconds else np.zeros_like(t)
     pose, contacts = statue(t)
     figure, angles = build(pose)
-    plate = about(1, yaw)
+    plate = about(1, rate * t)
     rotations = quaternion.multiply(plate[:, None], figure.rotations)
     turned = Figure(rotations, quaternion.rotate(plate, figure.hips))
-    truth = Truth(np.zeros_like(contacts), angles | {"heading": yaw}, facts={"angle": angle})
+    truth = Truth(np.zeros_like(contacts), angles | {"heading": rate * t}, facts={"heading_rate": rate})
     return sample("spin", turned, truth, **form)

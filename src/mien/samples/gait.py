@@ -1,12 +1,12 @@
 """Walking: feet that stay where they stand, a pelvis carried over them, arms against the legs.
 
-The feet follow from footprints (``strides``). Pelvis, trunk and arms follow low-order Fourier curves through the peaks of
-normal gait; hips and knees follow from closed-form two-bone geometry. Peaks and timing: Murray, Drought
-& Kory (1964), *Walking patterns of normal men*, JBJS 46A; Murray, Sepic & Barnard (1967), *Patterns of
-sagittal rotation of the upper limbs in walking*, Physical Therapy 47; Winter, *Biomechanics and Motor
-Control of Human Movement*; Perry & Burnfield, *Gait Analysis*. The tired walk: Michalak et al. (2009),
-*Embodiment of sadness and depression*, Psychosomatic Medicine 71: slow, small arm swing and bob, more
-sway, slumped.
+The feet follow from footprints (``strides``). Pelvis, trunk and arms follow low-order Fourier curves
+through the peaks of normal gait; hips and knees follow from closed-form two-bone geometry. Peaks and
+timing: Murray, Drought & Kory (1964), *Walking patterns of normal men*, JBJS 46A; Murray, Sepic &
+Barnard (1967), *Patterns of sagittal rotation of the upper limbs in walking*, Physical Therapy 47;
+Winter, *Biomechanics and Motor Control of Human Movement*; Perry & Burnfield, *Gait Analysis*. The
+tired walk: Michalak et al. (2009), *Embodiment of sadness and depression*, Psychosomatic Medicine 71:
+slow, small arm swing and bob, more sway, slumped.
 """
 
 from dataclasses import replace
@@ -68,11 +68,12 @@ def tired_walk(
     return _walk("tired_walk", _paced(TIRED, cadence, step_length), seconds, form)
 
 
-def turn(*, seconds: float = 4.0, angle: float = 0.5 * np.pi, **form: Unpack[Form]) -> Sample:
-    """Walk along an arc that turns by ``angle`` radians to the left (-3.5 to 3.5) within ``seconds``."""
+def turn(*, seconds: float = 4.0, rate: float = 0.125 * np.pi, **form: Unpack[Form]) -> Sample:
+    """Walk along an arc that turns to the left by ``rate`` radians a second (-1 to 1)."""
+    if not -1.0 <= rate <= 1.0:
+        raise MienError(f"turn: rate must be -1 to 1 radians a second, got {rate:g}")
     gait = _paced(NORMAL, 1.7, 0.6)
-    way = gait.cadence * gait.step_length * max(seconds, 1e-9)
-    return _walk("turn", replace(gait, curvature=angle / way if seconds else 0.0), seconds, form)
+    return _walk("turn", replace(gait, curvature=rate / (gait.cadence * gait.step_length)), seconds, form)
 
 
 def _paced(gait: Gait, cadence: float, step_length: float) -> Gait:
@@ -96,8 +97,6 @@ def _walk(name: str, gait: Gait, seconds: float, form: Form) -> Sample:
             f"{name}: cadence must be 0.5 to 3 steps a second and step length 0.2 to 0.9 metres, "
             f"got {gait.cadence:g} and {gait.step_length:g}"
         )
-    if abs(gait.curvature) > 1.0:
-        raise MienError(f"{name}: the arc is tighter than a radius of 1 metre; give it more seconds")
     t = times(seconds, form)
     phase = 0.5 * gait.cadence * t
     figure, angles = build(_posed(gait, phase))
@@ -155,8 +154,8 @@ def _height(gait: Gait) -> float:
 def _upper_body(gait: Gait, phase: Array) -> Pose:
     """Return the pose without feet, the hips at height 0."""
     d = DEGREE
-    _, heading = way(gait, 2.0 * gait.step_length * phase)
-    nod = cycle(phase, 0.0, (0.0, 0.0), (1.0, 0.05))
+    _, heading = way(gait, 2.0 * gait.step_length * phase, 0.0)
+    nod = np.cos(4.0 * np.pi * (phase - 0.05))
     yaw = cycle(phase, 0.0, (-gait.thorax_yaw * d, 0.02))
     return Pose(
         hips=_carried(gait, phase),

@@ -79,9 +79,9 @@ def wave(
     swing = shown * np.sin(2.0 * np.pi * rate * (t - start))
     right = Arm(
         flexion=_blend(up, -2.0, 12.0),
-        abduction=_blend(up, 8.0, 62.0) + 3.0 * DEGREE * swing,
+        abduction=_blend(up, 8.0, 70.0) + 3.0 * DEGREE * swing,
         rotation=_blend(up, -12.0, 80.0),
-        elbow=_blend(up, 14.0, 112.0) + 24.0 * DEGREE * swing,
+        elbow=_blend(up, 14.0, 116.0) + 23.0 * DEGREE * swing,
         pronation=_blend(up, 15.0, 60.0),
         wrist=_blend(up, 6.0, 0.0),
         shrug=_blend(up, 0.0, 8.0),

@@ -94,7 +94,7 @@ def _feet(t: Array, speed: float, landing: float) -> dict[str, Foot]:
         lifted = foot.ankle + np.stack([np.zeros_like(t), rise, np.zeros_like(t)], axis=-1)
         # Off the floor the toes fall in line with the foot, and spread again before they meet it.
         line = keyed(t, [(PUSH, 0.0), (PUSH + 0.12, 1.0), (landing - 0.12, 1.0), (landing, 0.0)])
-        toes = turned(np.full_like(t, yaw), -line * pitch)
+        toes = turned(np.full_like(t, yaw), -line * pitch, 0.0)
         feet[side] = Foot(np.where(air[:, None], lifted, foot.ankle), foot.rotation, toes)
     return feet
 

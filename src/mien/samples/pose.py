@@ -81,7 +81,7 @@ def about(axis: int, angle: Curve) -> Array:
     return q
 
 
-def turned(yaw: Curve, lean: Curve, tip: Curve = 0.0) -> Array:
+def turned(yaw: Curve, lean: Curve, tip: Curve) -> Array:
     """Return the rotations (..., 4) of a yaw, then a lean and a tip about the axes so turned."""
     return quaternion.multiply(quaternion.multiply(about(1, yaw), about(0, lean)), about(2, tip))
 
@@ -152,8 +152,8 @@ def planted(place: Array, heading: Curve, pitch: Array) -> Foot:
     """Return a foot that stands at ``place`` and rolls by ``pitch`` (T,), toes flat on the floor or up."""
     yaw = about(1, heading)
     ankle = place + quaternion.rotate(yaw, rolled(ANKLE, pitch))
-    toes = turned(np.broadcast_to(heading, pitch.shape), -np.maximum(pitch, 0.0))
-    return Foot(ankle, turned(heading, -pitch), toes)
+    toes = turned(np.broadcast_to(heading, pitch.shape), -np.maximum(pitch, 0.0), 0.0)
+    return Foot(ankle, turned(heading, -pitch, 0.0), toes)
 
 
 def standing(pitch: Array) -> Mask:

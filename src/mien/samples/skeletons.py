@@ -79,7 +79,7 @@ def _channels(letters: str) -> tuple[str, ...]:
     return tuple(f"{c.upper()}{'rotation' if c.isupper() else 'position'}" for c in letters)
 
 
-def _rest(joints: Sequence[Joint], arms: float, legs: float = 0.0) -> Array:
+def _rest(joints: Sequence[Joint], arms: float, legs: float) -> Array:
     """Return the frames of a rest pose with all axes parallel and the limbs raised sideways (degrees)."""
     frames = np.tile(quaternion.IDENTITY, (len(joints), 1))
     for i, (_, _, segment, _) in enumerate(joints):
@@ -132,7 +132,9 @@ def _standard22() -> Rig:
     ends = [("Head", STANCE["head_tip"])]
     for long, side in _SHORT.items():
         ends += [(f"{long}Hand", STANCE[f"{side}_hand_tip"]), (f"{long}ToeBase", STANCE[f"{side}_toe_tip"])]
-    return _rig(joints, ends, {r: names[r] for r in _ROLES}, _rest(joints, 90.0), root="xyzZXY", others="ZXY")
+    return _rig(
+        joints, ends, {r: names[r] for r in _ROLES}, _rest(joints, 90.0, 0.0), root="xyzZXY", others="ZXY"
+    )
 
 
 def _above(segment: str) -> str:
@@ -219,7 +221,7 @@ def _poser43() -> Rig:
                 _fingers(joints, ends, side)
         ends.append((names["toe"], STANCE[f"{side}_toe_tip"]))
         roles |= {f"{side}_{part}": name for part, name in names.items()}
-    return _rig(joints, ends, roles, _rest(joints, 0.0), root="YXZxyz", others="XYZ")
+    return _rig(joints, ends, roles, _rest(joints, 0.0, 0.0), root="YXZxyz", others="XYZ")
 
 
 def _fingers(joints: list[Joint], ends: list[tuple[str, Array]], side: str) -> None:

@@ -28,7 +28,7 @@ class Gait:
     curvature: float = 0.0  # 1 / metres, to the left
     toe_out: float = 6.0
     foot_flat: float = 0.09
-    heel_off: float = 0.30
+    heel_off: float = 0.33
     toe_off: float = 0.59
     strike_pitch: float = 16.4
     push_pitch: float = 59.5
@@ -51,7 +51,7 @@ class Gait:
     slump: float = 0.0
 
 
-def way(gait: Gait, distance: Array, aside: Array | float = 0.0) -> tuple[Array, Array]:
+def way(gait: Gait, distance: Array, aside: Array | float) -> tuple[Array, Array]:
     """Return the place (N, 3) and heading (N,) at a distance along the arc, ``aside`` metres to its left."""
     turn = gait.curvature * distance
     half = 0.5 * turn
@@ -72,7 +72,10 @@ def stride(phase: Array, side: str) -> tuple[Array, Integers]:
 def contacts(gait: Gait, phase: Array, side: str) -> Mask:
     """Return which of heel and toe stand on the floor (T, 2)."""
     u, _ = stride(phase, side)
-    return np.stack([u <= gait.heel_off, (u >= gait.foot_flat) & (u <= gait.toe_off)], axis=-1)
+    # A frame that falls on an event belongs to the contact, whatever the rounding.
+    early, late = u - 1e-9, u + 1e-9
+    heel, toe = early <= gait.heel_off, (late >= gait.foot_flat) & (early <= gait.toe_off)
+    return np.stack([heel, toe], axis=-1)
 
 
 def foot(gait: Gait, phase: Array, side: str) -> Foot:
@@ -87,8 +90,8 @@ def foot(gait: Gait, phase: Array, side: str) -> Foot:
     toe = here + _rotate(facing, rolled(TOE, pitch))
     flown = _swing(gait, share, here + _rotate(facing, TOE), there, facing_next)
     toe = np.where(swing[:, None], flown, toe)
-    rotation = turned(yaw, -pitch)
-    toes = turned(yaw, _toe_pitch(gait, u))
+    rotation = turned(yaw, -pitch, 0.0)
+    toes = turned(yaw, _toe_pitch(gait, u), 0.0)
     return Foot(toe + quaternion.rotate(rotation, ANKLE - TOE), rotation, toes)
 
 
