@@ -22,8 +22,8 @@ _SWAPS |= {b: a for a, b in _SWAPS.items()}
 _SIDE = re.compile(r"left|right|lft|rgt|左|右|(?<![a-z])[lr](?![a-z])", re.IGNORECASE)
 _CAPITAL = re.compile(r"(?<![A-Z])[LR](?=[A-Z][a-z])|(?<=[a-z0-9])[LR](?![a-z])|^[lr](?=[A-Z])")
 
-# How far bones may be off (share of their length) for axes to count as lying along axes.
-MISFIT = 0.15
+# How far bones (share of their length) and neutral stance may be off for axes to lie along axes.
+MISFIT, OFF = 0.05, np.radians(35.0)
 
 
 def partners(skeleton: Skeleton, body: Body) -> Integers:
@@ -124,6 +124,7 @@ def own_axes(motion: Motion, body: Body, pairs: Integers) -> Array:
     the bone.
     """
     stance = neutral_world(motion, body)[0]
+    usual = motion.translations.mean(axis=0)  # a mirror keeps it, unlike the first frame
     q = np.tile(np.append(body.left, 0.0), (len(pairs), 1))
     for joint, other in enumerate(pairs):
         if other < 0:
@@ -132,24 +133,29 @@ def own_axes(motion: Motion, body: Body, pairs: Integers) -> Array:
             q[joint] = quaternion.conjugate(q[other])
             continue
         above, beside = int(motion.skeleton.parents[joint]), int(motion.skeleton.parents[other])
-        paired = above >= 0 and pairs[above] == beside
+        paired = joint != body.roles["hips"] and above >= 0 and pairs[above] == beside
         start = q[above] if paired else np.append(body.left, 0.0)
         mine, theirs = (
             quaternion.multiply(quaternion.conjugate(stance[p]), stance[j]) if paired else stance[j]
             for p, j in ((above, joint), (beside, other))
         )
         guess = quaternion.multiply(quaternion.conjugate(theirs), quaternion.multiply(start, mine))
-        q[joint] = _fitted(guess, *_bones(motion, pairs, joint, other), middle=joint == other)
+        q[joint] = _fitted(guess, *_bones(motion.skeleton, usual, pairs, joint, other), middle=joint == other)
+    joint = body.roles["hips"]
+    while (above := int(motion.skeleton.parents[joint])) >= 0:
+        # What carries the hips has no shape: its axes leave their first local rotation as it is.
+        first = motion.rotations[0, joint]
+        q[above] = quaternion.multiply(first, quaternion.multiply(q[joint], quaternion.conjugate(first)))
+        joint = above
     return q
 
 
-def _bones(motion: Motion, pairs: Integers, joint: int, other: int) -> tuple[Array, Array]:
+def _bones(skeleton: Skeleton, usual: Array, pairs: Integers, joint: int, other: int) -> tuple[Array, Array]:
     """Return the bones (N, 3) below a joint in its own axes, and those of its partner in theirs."""
-    skeleton = motion.skeleton
     known = [c for c in skeleton.children(joint) if pairs[c] in skeleton.children(other)]
     ends = [np.flatnonzero(skeleton.end_parents == j)[:1] for j in (joint, other)]
-    mine = np.concatenate([motion.translations[0, known], skeleton.end_offsets[ends[0]]])
-    theirs = np.concatenate([motion.translations[0, pairs[known]], skeleton.end_offsets[ends[1]]])
+    mine = np.concatenate([usual[known], skeleton.end_offsets[ends[0]]])
+    theirs = np.concatenate([usual[pairs[known]], skeleton.end_offsets[ends[1]]])
     return (mine, theirs) if len(ends[0]) == len(ends[1]) else (mine[: len(known)], theirs[: len(known)])
 
 
@@ -162,17 +168,29 @@ def _fitted(guess: Array, mine: Array, theirs: Array, *, middle: bool) -> Array:
     angle = 2.0 * np.arccos(np.clip(np.abs(ways @ guess), 0.0, 1.0))
     cost = np.minimum(misfit, 1.0) + 0.1 * angle**2
     best = int(np.argmin(cost))
-    if misfit[best] < MISFIT**2 and angle[best] < np.radians(50.0):
+    if misfit[best] < MISFIT**2 and angle[best] < OFF:
         return ways[best]
-    if middle or not len(mine):
+    if not len(mine):
         return guess
+    if middle:
+        return _sideways(guess, mine, theirs)
     back = quaternion.conjugate(guess)
     longest = int(np.argmax(np.sum(mine * mine, axis=-1)))
-    return quaternion.conjugate(
-        quaternion.multiply(
-            quaternion.between(-quaternion.rotate(back, theirs[longest]), mine[longest]), back
-        )
-    )
+    fit = quaternion.between(-quaternion.rotate(back, theirs[longest]), mine[longest])
+    return quaternion.conjugate(quaternion.multiply(fit, back))
+
+
+def _sideways(guess: Array, mine: Array, theirs: Array) -> Array:
+    """Return the half turn about a middle joint's sideways axis: from its left to its right bones.
+
+    Where bones do not spread to the sides, it is ``guess`` made square to them.
+    """
+    apart = mine - theirs
+    across = np.where(apart @ guess[:3] < 0.0, -1.0, 1.0) @ apart
+    if float(np.linalg.norm(across)) < 0.1 * float(np.linalg.norm(mine)):
+        along = mine.sum(axis=0)
+        across = guess[:3] - (guess[:3] @ along) / max(float(along @ along), 1e-300) * along
+    return quaternion.normalise(np.append(across, 0.0))
 
 
 @cache

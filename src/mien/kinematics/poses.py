@@ -9,7 +9,7 @@ Positive turns about left pitch forward (the head nods, the arm swings back); ab
 about forward tip to the body's right (the left arm goes out).
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Self
@@ -139,7 +139,10 @@ def pose_between(neutral: Motion, changed: Motion) -> Pose:
     Both are stills or short clips (their mean pose is taken) of the same actor. Where they stand and
     which way they face does not matter; the pitch and roll of the hips do (Förger 2012, section 3.4.2).
     """
-    before, after = _segment_rotations(neutral), _segment_rotations(changed)
+    body = Body.of(neutral)
+    same = neutral.skeleton.names == changed.skeleton.names
+    before = _segment_rotations(neutral, body)
+    after = _segment_rotations(changed, body if same else Body.of(changed))
     turns: dict[str, Turn] = {}
     for segment in SEGMENTS:
         if segment in before and segment in after:
@@ -167,9 +170,8 @@ def anatomical_axes(body: Body) -> Array:
     return np.stack([body.left, body.up, body.forward])
 
 
-def _segment_rotations(motion: Motion) -> dict[str, Array]:
+def _segment_rotations(motion: Motion, body: Body) -> dict[str, Array]:
     """Return the mean rotation (4,) of each segment against its parent segment, in anatomical axes."""
-    body = Body.of(motion)
     rotations, positions = world(motion)
     facing = quaternion.conjugate(heading_rotation(positions, body))
     stance = quaternion.conjugate(neutral_world(motion, body)[0])
@@ -180,7 +182,7 @@ def _segment_rotations(motion: Motion) -> dict[str, Array]:
     }
     out = {}
     for segment, rotation in upright.items():
-        base = _first(_ancestors(segment), upright)
+        base = next((name for name in _ancestors(segment) if name in upright), None)
         turned = (
             rotation if base is None else quaternion.multiply(quaternion.conjugate(upright[base]), rotation)
         )
@@ -197,10 +199,6 @@ def _ancestors(segment: str) -> list[str]:
         return [*(f"{side}_{r}" for r in LEG[: LEG.index(role)][::-1]), "hips"]
     core = ["hips", "trunk", "neck", "head"]
     return core[: core.index(segment)][::-1]
-
-
-def _first(names: Iterable[str], known: Mapping[str, Array]) -> str | None:
-    return next((name for name in names if name in known), None)
 
 
 def _in_axes(q: Array, axes: Array) -> Array:
