@@ -92,7 +92,7 @@ def test_clips_of_different_length_are_compared_at_the_same_share(walk: mien.Mot
 def test_different_skeletons_are_refused_with_the_joints_named(walk: mien.Motion) -> None:
     names = ["Skull" if n == "Head" else n for n in walk.skeleton.names]
     other = walk.with_(skeleton=mien.Skeleton(tuple(names), walk.skeleton.parents, walk.skeleton.offsets))
-    with pytest.raises(MienError, match=r"1 joints only in the first, 1 only in the second \(Head, Skull"):
+    with pytest.raises(MienError, match=r"only in the first 1, only in the second 1 joints \(Head, Skull\)"):
         compare(walk, other)
 
 

@@ -16,11 +16,11 @@ from mien.cli.app import app
 
 @pytest.fixture(scope="session")
 def clips(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with ``walk.bvh``, ``turn.bvh`` and ``deeper/tired_walk.bvh``; read only."""
+    """A folder with ``walk.bvh``, ``brisk.bvh`` and ``deeper/tired_walk.bvh``; read only."""
     folder = tmp_path_factory.mktemp("clips")
     (folder / "deeper").mkdir()
     mien.save(samples.walk(seconds=1.5, fps=30.0).motion, folder / "walk.bvh")
-    mien.save(samples.turn(seconds=1.5, angle=0.5, fps=30.0).motion, folder / "turn.bvh")
+    mien.save(samples.walk(seconds=1.5, cadence=2.2, heading=0.7, fps=30.0).motion, folder / "brisk.bvh")
     mien.save(samples.tired_walk(seconds=1.5, fps=30.0).motion, folder / "deeper" / "tired_walk.bvh")
     return folder
 

@@ -60,14 +60,15 @@ def test_diff_of_different_skeletons_is_refused(folder: Path, run: Run) -> None:
 
 
 def test_render_a_picture_and_a_film(folder: Path, run: Run) -> None:
-    result = run("render", "walk.bvh", "turn.bvh", "--poses", 3, "--width", 400, "-o", "pictures")
+    result = run("render", "walk.bvh", "brisk.bvh", "--poses", 3, "--width", 400, "-o", "pictures")
     assert result.exit_code == 0
-    assert result.stdout.split() == [str(Path("pictures") / n) for n in ("walk_strip.png", "turn_strip.png")]
+    assert result.stdout.split() == [str(Path("pictures") / n) for n in ("walk_strip.png", "brisk_strip.png")]
     with Image.open("pictures/walk_strip.png") as picture:
         assert picture.width == 400
-    assert run("render", "walk.bvh", "--against", "turn.bvh", "--views", "side", "-o", "w.gif").exit_code == 0
-    with Image.open("w.gif") as film:
-        assert film.n_frames > 10
+    film = ["--against", "brisk.bvh", "--views", "side", "-o", "w.gif"]
+    assert run("render", "walk.bvh", *film).exit_code == 0
+    with Image.open("w.gif") as picture:
+        assert picture.n_frames > 10
     again = run("render", "walk.bvh", "-o", "w.gif")
     assert again.exit_code == 2
     assert "exists already" in again.stderr

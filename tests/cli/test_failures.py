@@ -87,7 +87,7 @@ def test_one_bad_clip_among_good_ones(folder: Path, run: Run) -> None:
     Path("bad.bvh").write_bytes(RUBBISH["cut header"])
     result = run("edit", "*.bvh", "-e", "sad")
     assert result.exit_code == 1
-    assert result.stdout.split() == ["turn_sad.bvh", "walk_sad.bvh"]
+    assert result.stdout.split() == ["brisk_sad.bvh", "walk_sad.bvh"]
     assert "bad.bvh" in result.stderr
     assert "2 of 3 clips written, 1 failed" in result.stderr
     assert run("info", "*.bvh").exit_code == 1

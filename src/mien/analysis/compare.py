@@ -132,8 +132,8 @@ def _same_joints(a: Motion, b: Motion) -> list[int]:
     if lost or added:
         some = ", ".join([*lost, *added][:6])
         raise MienError(
-            f"the clips have different skeletons: {len(lost)} joints only in the first, {len(added)} only "
-            f"in the second ({some}); compare clips of one skeleton"
+            f"the clips have different skeletons: only in the first {len(lost)}, only in the second "
+            f"{len(added)} joints ({some}); compare clips of one skeleton"
         )
     return [there[name] for name in a.skeleton.names]
 

@@ -98,10 +98,8 @@ def unit(metres: float) -> str:
 def _text(fact: Mapping[str, Any]) -> str:
     """Return the facts as lines for a person."""
     rate = f"{fact['fps']:.2f}".rstrip("0").rstrip(".")
-    lines = [
-        fact["file"],
-        f"  {fact['joints']} joints, {fact['frames']} frames at {rate} fps: {fact['seconds']:.2f} s",
-    ]
+    size = f"{_count(fact['joints'], 'joint')}, {_count(fact['frames'], 'frame')}"
+    lines = [fact["file"], f"  {size} at {rate} fps: {fact['seconds']:.2f} s"]
     body = fact.get("body")
     if body:
         lines += [
@@ -113,6 +111,10 @@ def _text(fact: Mapping[str, Any]) -> str:
     else:
         lines += [f"  no body found: {fact['no_body']}"]
     return "\n".join([*lines, *(f"  note: {note}" for note in fact["notes"])])
+
+
+def _count(number: int, thing: str) -> str:
+    return f"{number} {thing}{'' if number == 1 else 's'}"
 
 
 def _roles(roles: Mapping[str, str]) -> list[str]:
