@@ -103,7 +103,27 @@ def punch(*, seconds: float = 2.4, punches: int = 2, sway: float = 1.0, **form: 
     hip, chest, hit = (
         _pulses(t, [s + late for s in starts], 0.22, 0.05, 0.4) for late in (-0.06, -0.03, 0.0)
     )
-    d = DEGREE
+    rise, flat = -_blend(hip, 12.0, 38.0), np.zeros_like(t)
+    hips = np.stack([0.02 * hip, HIP_HEIGHT - 0.075 - 0.015 * hip, 0.09 * hip - 0.01], axis=-1)
+    pose = Pose(
+        hips=hips + _sway(t, sway)[0],
+        pelvis=Turn(_blend(hip, -30.0, 14.0), 6.0 * DEGREE),
+        thorax=Turn(_blend(chest, -38.0, 32.0), _blend(chest, 9.0, 13.0)),
+        head=Turn(_blend(chest, -6.0, 6.0), 9.0 * DEGREE),
+        arms=_boxing(hit),
+        feet={
+            "left": planted(np.array([0.10, 0.0, 0.20]), -8.0 * DEGREE, flat),
+            "right": planted(np.array([-0.13, 0.0, -0.24]), -38.0 * DEGREE, rise),
+        },
+    )
+    figure, angles = build(pose)
+    contacts = np.stack([standing(flat), standing(rise)], axis=1)
+    events = {"strike": tuple(starts), "hit": tuple(s + 0.22 for s in starts)}
+    return sample("punch", figure, Truth(contacts, angles, events=events), **form)
+
+
+def _boxing(hit: Array) -> dict[str, Arm]:
+    """Return the arms from the guard (0) to the right arm at full stretch (1)."""
     right = Arm(
         flexion=_blend(hit, 38.0, 95.0),
         abduction=_blend(hit, 12.0, 30.0),
@@ -114,32 +134,13 @@ def punch(*, seconds: float = 2.4, punches: int = 2, sway: float = 1.0, **form: 
     )
     left = Arm(
         flexion=_blend(hit, 58.0, 48.0),
-        abduction=12.0 * d,
-        rotation=-22.0 * d,
+        abduction=12.0 * DEGREE,
+        rotation=-22.0 * DEGREE,
         elbow=_blend(hit, 108.0, 124.0),
-        pronation=30.0 * d,
-        reach=6.0 * d,
+        pronation=30.0 * DEGREE,
+        reach=6.0 * DEGREE,
     )
-    rise = -(_blend(hip, 12.0, 38.0))
-    flat = np.zeros_like(t)
-    feet = {
-        "left": planted(np.array([0.10, 0.0, 0.20]), -8.0 * d, flat),
-        "right": planted(np.array([-0.13, 0.0, -0.24]), -38.0 * d, rise),
-    }
-    bounce, _ = _sway(t, sway)
-    hips = bounce + np.stack([0.02 * hip, HIP_HEIGHT - 0.075 - 0.015 * hip, 0.09 * hip - 0.01], axis=-1)
-    pose = Pose(
-        hips=hips,
-        pelvis=Turn(_blend(hip, -30.0, 14.0), 6.0 * d),
-        thorax=Turn(_blend(chest, -38.0, 32.0), _blend(chest, 9.0, 13.0)),
-        head=Turn(_blend(chest, -6.0, 6.0), 9.0 * d),
-        arms={"left": left, "right": right},
-        feet=feet,
-    )
-    figure, angles = build(pose)
-    contacts = np.stack([standing(flat), standing(rise)], axis=1)
-    events = {"strike": tuple(starts), "hit": tuple(s + 0.22 for s in starts)}
-    return sample("punch", figure, Truth(contacts, angles, events=events), **form)
+    return {"left": left, "right": right}
 
 
 def _count(owner: str, name: str, value: int) -> int:

@@ -42,11 +42,12 @@ class Rig:
 
 
 Joint = tuple[str, str, str, Array]  # name, parent, segment, place in the upright stance
+End = tuple[str, Array]  # the joint it hangs on, place
 
 
 def _rig(
     joints: Sequence[Joint],
-    ends: Sequence[tuple[str, Array]],
+    ends: Sequence[End],
     roles: Mapping[str, str],
     frames: Array,
     *,
@@ -90,7 +91,7 @@ def _rest(joints: Sequence[Joint], arms: float, legs: float) -> Array:
     return frames
 
 
-def _along_bones(joints: Sequence[Joint], ends: Sequence[tuple[str, Array]]) -> Array:
+def _along_bones(joints: Sequence[Joint], ends: Sequence[End]) -> Array:
     """Return frames whose x axis runs along the bone (on the right side: back along it)."""
     frames = np.tile(quaternion.IDENTITY, (len(joints), 1))
     for i, (name, _, segment, point) in enumerate(joints):
@@ -105,162 +106,119 @@ def _along_bones(joints: Sequence[Joint], ends: Sequence[tuple[str, Array]]) -> 
     return frames
 
 
-_SHORT = {"Left": "left", "Right": "right"}
-_ROLES = tuple(s for s in SEGMENTS if s != "waist")
-
-
 def _at(x: float, y: float, z: float) -> Array:
     return STATURE * np.array([x, y, z])
 
 
+def _spelt(trunk: str, limbs: str, spell: Callable[[str, str], str]) -> dict[str, str]:
+    """Return segment -> joint name from two lists of words; ``spell(side, word)`` names a limb's joint."""
+    names = dict(zip(SEGMENTS, trunk.split(), strict=False))
+    parts = [s.removeprefix("left_") for s in SEGMENTS if s.startswith("left_")]
+    for side in SIDES:
+        names |= {f"{side}_{p}": spell(side, word) for p, word in zip(parts, limbs.split(), strict=True)}
+    return names
+
+
+def _bones(names: Mapping[str, str], *, above: Mapping[str, str]) -> list[Joint]:
+    """Return a joint for every segment, hung on the one before it or on what ``above`` says."""
+    joints = []
+    for segment, parent in zip(SEGMENTS, PARENTS.tolist(), strict=True):
+        usual = names[SEGMENTS[parent]] if parent >= 0 else ""
+        joints.append((names[segment], above.get(names[segment], usual), segment, STANCE[segment]))
+    return joints
+
+
+def _tips(names: Mapping[str, str], *parts: str) -> list[End]:
+    """Return the end sites of the head and of the given limb joints."""
+    tip = {"wrist": "hand_tip", "toe": "toe_tip"}
+    limbs = [(f"{side}_{part}", f"{side}_{tip[part]}") for side in SIDES for part in parts]
+    return [(names[joint], STANCE[end]) for joint, end in [("head", "head_tip"), *limbs]]
+
+
+def _roles(names: Mapping[str, str]) -> dict[str, str]:
+    return {segment: name for segment, name in names.items() if segment != "waist"}
+
+
 def _standard22() -> Rig:
     """Game-engine names, T-pose, axes parallel to the world."""
-    trunk = {
-        "hips": "Hips",
-        "spine": "Spine",
-        "waist": "Spine1",
-        "chest": "Chest",
-        "neck": "Neck",
-        "head": "Head",
-    }
-    arm = {"collar": "Shoulder", "shoulder": "Arm", "elbow": "ForeArm", "wrist": "Hand"}
-    leg = {"hip": "UpLeg", "knee": "Leg", "ankle": "Foot", "toe": "ToeBase"}
-    names = dict(trunk)
-    for long, side in _SHORT.items():
-        names |= {f"{side}_{k}": f"{long}{v}" for k, v in (arm | leg).items()}
-    joints = [(names[s], names.get(_above(s), ""), s, STANCE[s]) for s in SEGMENTS]
-    ends = [("Head", STANCE["head_tip"])]
-    for long, side in _SHORT.items():
-        ends += [(f"{long}Hand", STANCE[f"{side}_hand_tip"]), (f"{long}ToeBase", STANCE[f"{side}_toe_tip"])]
-    return _rig(
-        joints, ends, {r: names[r] for r in _ROLES}, _rest(joints, 90.0, 0.0), root="xyzZXY", others="ZXY"
+    names = _spelt(
+        "Hips Spine Spine1 Chest Neck Head",
+        "Shoulder Arm ForeArm Hand UpLeg Leg Foot ToeBase",
+        lambda side, word: side.title() + word,
     )
-
-
-def _above(segment: str) -> str:
-    parent = int(PARENTS[INDEX[segment]])
-    return SEGMENTS[parent] if parent >= 0 else ""
+    joints = _bones(names, above={})
+    frames = _rest(joints, 90.0, 0.0)
+    return _rig(joints, _tips(names, "wrist", "toe"), _roles(names), frames, root="xyzZXY", others="ZXY")
 
 
 def _capture31() -> Rig:
     """Capture-studio names with dummy hip joints, a double neck and hand dummies; A-pose."""
-    joints: list[Joint] = [("Hips", "", "hips", STANCE["hips"])]
-    ends: list[tuple[str, Array]] = []
-    for long, side in _SHORT.items():
-        legs = ["hip", "knee", "ankle", "toe"]
-        chain = [f"{long}{n}" for n in ("UpLeg", "Leg", "Foot", "ToeBase")]
-        joints.append((f"{long[0]}HipJoint", "Hips", "hips", STANCE["hips"]))
-        for name, above, part in zip(chain, [f"{long[0]}HipJoint", *chain], legs, strict=False):
-            joints.append((name, above, f"{side}_{part}", STANCE[f"{side}_{part}"]))
-        ends.append((chain[-1], STANCE[f"{side}_toe_tip"]))
-    halfway = 0.5 * (STANCE["neck"] + STANCE["head"])
-    joints += [
-        ("LowerBack", "Hips", "spine", STANCE["spine"]),
-        ("Spine", "LowerBack", "waist", STANCE["waist"]),
-        ("Spine1", "Spine", "chest", STANCE["chest"]),
-        ("Neck", "Spine1", "neck", STANCE["neck"]),
-        ("Neck1", "Neck", "neck", halfway),
-        ("Head", "Neck1", "head", STANCE["head"]),
-    ]
-    ends.append(("Head", STANCE["head_tip"]))
-    for long, side in _SHORT.items():
-        _capture_arm(joints, ends, long, side)
-    roles = {"hips": "Hips", "spine": "LowerBack", "chest": "Spine1", "neck": "Neck", "head": "Head"}
-    for long, side in _SHORT.items():
-        parts = {"collar": "Shoulder", "shoulder": "Arm", "elbow": "ForeArm", "wrist": "Hand"}
-        parts |= {"hip": "UpLeg", "knee": "Leg", "ankle": "Foot", "toe": "ToeBase"}
-        roles |= {f"{side}_{k}": f"{long}{v}" for k, v in parts.items()}
-    return _rig(joints, ends, roles, _rest(joints, 45.0, 5.0), root="xyzZYX", others="ZYX")
-
-
-def _capture_arm(joints: list[Joint], ends: list[tuple[str, Array]], long: str, side: str) -> None:
-    sign = [SIDES[side], 1.0, 1.0]
-    parts = {"collar": "Shoulder", "shoulder": "Arm", "elbow": "ForeArm", "wrist": "Hand"}
-    above = "Spine1"
-    for part, name in parts.items():
-        joints.append((f"{long}{name}", above, f"{side}_{part}", STANCE[f"{side}_{part}"]))
-        above = f"{long}{name}"
-    knuckle, thumb = _at(0.106, 0.436, -0.014) * sign, _at(0.098, 0.466, 0.004) * sign
-    hand = f"{side}_wrist"
-    joints.append((f"{long}FingerBase", above, hand, STANCE[hand]))
-    joints.append((f"{long}HandIndex1", f"{long}FingerBase", hand, knuckle))
-    joints.append((f"{long[0]}Thumb", above, hand, thumb))
-    ends.append((f"{long}HandIndex1", STANCE[f"{side}_hand_tip"]))
-    ends.append((f"{long[0]}Thumb", thumb + _at(0.0, -0.02, 0.012)))
+    names = _spelt(
+        "Hips LowerBack Spine Spine1 Neck Head",
+        "Shoulder Arm ForeArm Hand UpLeg Leg Foot ToeBase",
+        lambda side, word: side.title() + word,
+    )
+    hung = {"LeftUpLeg": "LHipJoint", "RightUpLeg": "RHipJoint", "Head": "Neck1"}
+    joints, ends = _bones(names, above=hung), _tips(names, "toe")
+    joints.append(("Neck1", "Neck", "neck", 0.5 * (STANCE["neck"] + STANCE["head"])))
+    for side, sign in SIDES.items():
+        long, letter, hand = side.title(), side[0].upper(), f"{side}_wrist"
+        knuckle, thumb = _at(sign * 0.106, 0.436, -0.014), _at(sign * 0.098, 0.466, 0.004)
+        joints += [
+            (f"{letter}HipJoint", "Hips", "hips", STANCE["hips"]),
+            (f"{long}FingerBase", f"{long}Hand", hand, STANCE[hand]),
+            (f"{long}HandIndex1", f"{long}FingerBase", hand, knuckle),
+            (f"{letter}Thumb", f"{long}Hand", hand, thumb),
+        ]
+        ends += [(f"{long}HandIndex1", STANCE[f"{side}_hand_tip"])]
+        ends += [(f"{letter}Thumb", thumb + _at(0.0, -0.02, 0.012))]
+    frames = _rest(joints, 45.0, 5.0)
+    return _rig(joints, ends, _roles(names), frames, root="xyzZYX", others="ZYX")
 
 
 def _poser43() -> Rig:
     """Poser-like names with eyes, jaw and fingers; arms hang in the rest pose."""
-    joints: list[Joint] = [
-        ("hip", "", "hips", STANCE["hips"]),
-        ("abdomen", "hip", "spine", STANCE["spine"]),
-        ("abdomen2", "abdomen", "waist", STANCE["waist"]),
-        ("chest", "abdomen2", "chest", STANCE["chest"]),
-        ("neck", "chest", "neck", STANCE["neck"]),
-        ("head", "neck", "head", STANCE["head"]),
-        ("jaw", "head", "head", _at(0.0, 0.905, 0.015)),
-        ("leftEye", "head", "head", _at(0.018, 0.936, 0.045)),
-        ("rightEye", "head", "head", _at(-0.018, 0.936, 0.045)),
-    ]
-    ends = [("jaw", _at(0.0, 0.870, 0.050)), ("head", STANCE["head_tip"])]
-    ends += [(n, p + _at(0.0, 0.0, 0.01)) for n, _, _, p in joints if n.endswith("Eye")]
-    roles = {"hips": "hip", "spine": "abdomen", "chest": "chest", "neck": "neck", "head": "head"}
-    arm = {"collar": "Collar", "shoulder": "Shldr", "elbow": "ForeArm", "wrist": "Hand"}
-    leg = {"hip": "Thigh", "knee": "Shin", "ankle": "Foot", "toe": "Toe"}
-    for side in ("right", "left"):
-        names = {part: f"{side[0]}{name}" for part, name in (arm | leg).items()}
-        for part, name in (arm | leg).items():
-            del name
-            above = {"collar": "chest", "hip": f"{side[0]}Buttock"}.get(part) or names[
-                _above(f"{side}_{part}")[len(side) + 1 :]
-            ]
-            if part == "hip":
-                joints.append((above, "hip", "hips", _at(0.03 * SIDES[side], 0.540, -0.01)))
-            joints.append((names[part], above, f"{side}_{part}", STANCE[f"{side}_{part}"]))
-            if part == "wrist":
-                _fingers(joints, ends, side)
-        ends.append((names["toe"], STANCE[f"{side}_toe_tip"]))
-        roles |= {f"{side}_{part}": name for part, name in names.items()}
-    return _rig(joints, ends, roles, _rest(joints, 0.0, 0.0), root="YXZxyz", others="XYZ")
+    names = _spelt(
+        "hip abdomen abdomen2 chest neck head",
+        "Collar Shldr ForeArm Hand Thigh Shin Foot Toe",
+        lambda side, word: side[0] + word,
+    )
+    joints = _bones(names, above={"lThigh": "lButtock", "rThigh": "rButtock"})
+    joints.append(("jaw", "head", "head", _at(0.0, 0.905, 0.015)))
+    ends = [*_tips(names, "toe"), ("jaw", _at(0.0, 0.870, 0.050))]
+    for side, sign in SIDES.items():
+        joints.append((f"{side}Eye", "head", "head", _at(sign * 0.018, 0.936, 0.045)))
+        ends.append((f"{side}Eye", _at(sign * 0.018, 0.936, 0.055)))
+        joints.append((f"{side[0]}Buttock", "hip", "hips", _at(sign * 0.03, 0.540, -0.01)))
+        _fingers(joints, ends, side)
+    frames = _rest(joints, 0.0, 0.0)
+    return _rig(joints, ends, _roles(names), frames, root="YXZxyz", others="XYZ")
 
 
-def _fingers(joints: list[Joint], ends: list[tuple[str, Array]], side: str) -> None:
-    """Thumb, index, middle and ring finger, two joints each, gently curled towards the palm."""
-    sign, letter, hand = np.array([SIDES[side], 1.0, 1.0]), side[0], f"{side}_wrist"
+def _fingers(joints: list[Joint], ends: list[End], side: str) -> None:
+    """Add thumb, index, middle and ring finger, two joints each, gently curled towards the palm."""
+    mirror, letter, hand = np.array([SIDES[side], 1.0, 1.0]), side[0], f"{side}_wrist"
     for name, z in (("Thumb", 0.010), ("Index", 0.003), ("Mid", -0.012), ("Ring", -0.026)):
         thumb = name == "Thumb"
         base = _at(0.100, 0.470, z) if thumb else _at(0.106, 0.434, z)
         middle = base + (_at(-0.004, -0.018, 0.008) if thumb else _at(-0.003, -0.027, 0.0))
         tip = middle + (_at(-0.002, -0.015, 0.002) if thumb else _at(-0.008, -0.024, 0.0))
-        joints.append((f"{letter}{name}1", f"{letter}Hand", hand, base * sign))
-        joints.append((f"{letter}{name}2", f"{letter}{name}1", hand, middle * sign))
-        ends.append((f"{letter}{name}2", tip * sign))
+        joints.append((f"{letter}{name}1", f"{letter}Hand", hand, base * mirror))
+        joints.append((f"{letter}{name}2", f"{letter}{name}1", hand, middle * mirror))
+        ends.append((f"{letter}{name}2", tip * mirror))
 
 
 def _engine23() -> Rig:
     """Underscore names under a dummy root; every bone lies along its own x axis."""
-    trunk = {"hips": "pelvis", "spine": "spine_01", "waist": "spine_02", "chest": "spine_03"}
-    names = trunk | {"neck": "neck_01", "head": "head"}
-    parts = {"collar": "clavicle", "shoulder": "upperarm", "elbow": "lowerarm", "wrist": "hand"}
-    parts |= {"hip": "thigh", "knee": "calf", "ankle": "foot", "toe": "ball"}
-    for side in SIDES:
-        names |= {f"{side}_{part}": f"{name}_{side[0]}" for part, name in parts.items()}
-    joints: list[Joint] = [("root", "", GROUND, np.zeros(3))]
-    joints += [(names[s], names.get(_above(s), "root"), s, STANCE[s]) for s in SEGMENTS]
-    ends = [("head", STANCE["head_tip"])]
-    for side in SIDES:
-        ends += [
-            (names[f"{side}_{part}"], STANCE[f"{side}_{tip}_tip"])
-            for part, tip in (("wrist", "hand"), ("toe", "toe"))
-        ]
-    return _rig(
-        joints,
-        ends,
-        {r: names[r] for r in _ROLES},
-        _along_bones(joints, ends),
-        root="xyzYZX",
-        others="xyzYZX",
+    names = _spelt(
+        "pelvis spine_01 spine_02 spine_03 neck_01 head",
+        "clavicle upperarm lowerarm hand thigh calf foot ball",
+        lambda side, word: f"{word}_{side[0]}",
     )
+    joints = [("root", "", GROUND, np.zeros(3)), *_bones(names, above={"pelvis": "root"})]
+    ends = _tips(names, "wrist", "toe")
+    frames = _along_bones(joints, ends)
+    return _rig(joints, ends, _roles(names), frames, root="xyzYZX", others="xyzYZX")
 
 
 RIGS: Mapping[str, Callable[[], Rig]] = {
