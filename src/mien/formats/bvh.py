@@ -69,10 +69,10 @@ def _read_header(data: bytes, where: str, *, fps: float | None, salvage: bool) -
     count = _COUNT.match(data, found.end())
     time = count and _TIME.match(data, count.end())
     if not count or not time:
-        line = _line(data, count.end() if count else found.end())
-        raise FormatError(
-            f"{where} line {line}: expected 'Frame{'s: 10' if not count else ' Time: 0.01'}' here"
-        )
+        at = count.end() if count else found.end()
+        at += len(data[at:]) - len(data[at:].lstrip())
+        wanted = "'Frame Time: 0.01'" if count else "'Frames: 10'"
+        raise FormatError(f"{where} line {_line(data, at)}: expected {wanted} here")
     layout = BvhLayout(
         skeleton=skeleton,
         channels=channels,
@@ -135,10 +135,15 @@ def _read_values(data: bytes, where: str, layout: BvhLayout, declared: int, *, s
     body = data[len(layout.header) :]
     values, problem = read_rows(body, declared, layout.width)
     frames = len(values)
-    keep = f"use --salvage to keep the first {frames} frames" if frames else "no frame is whole"
     if problem and (not salvage or not frames):
         line = _line(data, len(layout.header)) + problem.line
-        raise FormatError(f"{where} line {line}: {problem.message}; stopped after frame {frames} ({keep})")
+        state = (
+            f"the file looks cut off after frame {frames}"
+            if problem.ends
+            else f"frame {frames + 1} is damaged"
+        )
+        keep = f"use --salvage to keep the first {frames} frames" if frames else "no frame is whole"
+        raise FormatError(f"{where} line {line}: {problem.message}; {state} ({keep})")
     if not frames:
         raise FormatError(
             f"{where}: {declared} frames are declared, but there are no numbers after the header"

@@ -126,13 +126,14 @@ def _put_turns(
         return
     joints, taken = group.joints[chosen], group.columns[chosen]
     order, used = _full(group.order)
-    angles = to_euler(motion.rotations[:, joints], order)
-    _check_unused(angles, used, motion, joints, group.order)
-    angles = np.degrees(angles)
-    edited = turned[:, joints]
-    if source is not None and len(used) == 3:
-        angles = _follow(angles, source.values[:, taken], edited)
-    rows = values[:, taken]
+    angles = np.degrees(to_euler(motion.rotations[:, joints], order))
+    if len(used) < 3:
+        angles = _without(angles, [i for i in range(3) if i not in used], motion, joints, group.order)
+    rows, edited = values[:, taken], turned[:, joints]
+    if source is not None:
+        wanted = np.zeros_like(angles)
+        wanted[..., used] = rows
+        angles = _follow(angles, wanted, edited)
     values[:, taken] = np.where(edited[..., None], np.round(angles[..., used], decimals), rows)
 
 
@@ -146,15 +147,18 @@ def _full(order: str) -> tuple[str, list[int]]:
     return full, [full.index(axis) for axis in order]
 
 
-def _check_unused(angles: Array, used: list[int], motion: Motion, joints: Integers, order: str) -> None:
-    unused = [i for i in range(3) if i not in used]
-    turn = np.abs(np.remainder(angles[..., unused] + np.pi, 2 * np.pi) - np.pi) > 1e-6
-    for joint in joints[turn.any(axis=(0, 2))]:
+def _without(angles: Array, unused: list[int], motion: Motion, joints: Integers, order: str) -> Array:
+    """Return the angles (degrees) on the branch where the ``unused`` ones are 0, or raise if none is."""
+    turn = _gap(angles[..., unused], 0.0)
+    other = _other(angles)
+    other_turn = _gap(other[..., unused], 0.0)
+    for joint in joints[(np.minimum(turn, other_turn) > 1e-4).any(axis=0)]:
         has = f"only {order} rotation" if order else "no rotation"
         raise FormatError(
             f"joint {motion.skeleton.names[joint]!r} has {has} channels and cannot hold the edited rotation; "
             f"leave it out of the edit (--parts)"
         )
+    return np.unwrap(np.where((other_turn < turn)[..., None], other, angles), axis=0, period=360.0)
 
 
 def _follow(angles: Array, source: Array, edited: Mask) -> Array:
@@ -178,7 +182,7 @@ def _other(angles: Array) -> Array:
     return angles * [1.0, -1.0, 1.0] + 180.0
 
 
-def _gap(a: Array, b: Array) -> Array:
+def _gap(a: Array, b: Array | float) -> Array:
     return (np.abs(np.remainder(a - b + 180.0, 360.0) - 180.0)).sum(axis=-1)
 
 

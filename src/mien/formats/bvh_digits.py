@@ -18,8 +18,9 @@ def write_rows(values: Array, newline: bytes, *, decimals: int) -> bytes:
 
     All get ``decimals`` places if that is exact, else six or nine, else each as many as it needs.
     """
-    for places in (decimals, 6, 9):
-        if _exact(values, places):
+    reachable = np.abs(values).max() < 1e8  # two words of four digits
+    for places in (decimals, 6, 9) if reachable else ():
+        if _exact(values, 10.0**places):
             blocks = range(0, len(values), _BLOCK)
             text = b"".join(_fixed(values[i : i + _BLOCK], newline, places) for i in blocks)
             return text.removeprefix(newline) + newline
@@ -27,12 +28,10 @@ def write_rows(values: Array, newline: bytes, *, decimals: int) -> bytes:
     return "".join(" ".join(map(repr, row)) + end for row in values.tolist()).encode()
 
 
-def _exact(values: Array, places: int) -> bool:
-    """Return whether ``places`` decimals hold the numbers and the look-ups below reach that far."""
-    scale = 10.0**places
-    scaled = np.rint(values * scale)
-    reach = min(2.0**53, 1e8 * scale)  # whole numbers up to 2^53 divide to the nearest float64
-    return bool((np.abs(scaled) < reach).all() and (scaled / scale == values).all())
+def _exact(values: Array, scale: float) -> bool:
+    """Return whether the numbers are whole multiples of 1 / scale, up to float64's rounding."""
+    scaled = np.rint(values * scale)  # whole numbers up to 2^53 divide to the nearest float64
+    return bool((np.abs(scaled) < 2.0**53).all() and (scaled / scale == values).all())
 
 
 def _fixed(values: Array, newline: bytes, places: int) -> bytes:

@@ -19,6 +19,7 @@ MAX_JOINTS = 5000
 POSITIONS = ("Xposition", "Yposition", "Zposition")
 ROTATIONS = ("Xrotation", "Yrotation", "Zrotation")
 _CHANNELS = {name.lower(): name for name in POSITIONS + ROTATIONS}
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 _BREAK = re.compile("\r\n|\n|\r")
 
 
@@ -63,12 +64,9 @@ def decode(header: bytes, where: str) -> tuple[str, str]:
 
 
 def number(text: str) -> float:
-    """Return the finite number that ``text`` spells, else NaN."""
-    try:
-        value = float(text)
-    except ValueError:
-        return math.nan
-    return value if math.isfinite(value) and "_" not in text else math.nan
+    """Return the finite decimal number that ``text`` spells, else NaN."""
+    value = float(text) if len(text) < 400 and _NUMBER.fullmatch(text) else math.nan
+    return value if math.isfinite(value) else math.nan
 
 
 def read_hierarchy(
@@ -174,9 +172,10 @@ class _Reader:
     def _leave(self, rest: str) -> str:
         if not self.open:
             raise self.fault("a '}' without a '{'")
-        node = self.open.pop()
+        node = self.open[-1]
         if not node.offset:
             raise self.fault(f"{node.name!r} (line {node.line}) has no OFFSET")
+        self.open.pop()
         return rest[1:].lstrip()
 
     def _offset(self, rest: str) -> str:

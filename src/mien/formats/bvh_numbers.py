@@ -6,6 +6,7 @@ plainly regular is left to the careful reader, which says what is wrong and wher
 """
 
 import io
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,10 +21,11 @@ _SHAPES = bytes.maketrans(b"123456789E+ ", b"000000000e-\n")
 
 @dataclass(frozen=True)
 class Problem:
-    """Where the rows stop being whole: how many lines after the first row, and what is wrong there."""
+    """Where rows stop being whole, in lines after the first; what is wrong; whether the text just ends."""
 
     line: int
     message: str
+    ends: bool = False
 
 
 def read_rows(body: bytes, frames: int, width: int) -> tuple[Array, Problem | None]:
@@ -103,29 +105,30 @@ def _read_careful(body: bytes, width: int) -> tuple[Array, Problem | None]:
     """Read line by line. A frame may be wrapped over lines, but the next begins on a new line."""
     frames: list[list[float]] = []
     pending: list[bytes] = []
-    first = 0
+    first = count = 0  # the line on which the pending frame begins, and how many numbers it has
     for line, text in enumerate(body.splitlines()):
         words = text.split()
-        first = first if pending else line
+        if not pending:
+            first, count = line, len(words)
         pending += words
         if words and len(pending) >= width:
-            fault = _fault(pending, width)
+            fault = _fault(pending, count, width)
             if fault:
                 return _array(frames, width), Problem(first, fault)
             frames += _cut([float(word) for word in pending], width)
             pending = []
     if pending:
-        return _array(frames, width), Problem(first, _fault(pending, width))
+        return _array(frames, width), Problem(first, _fault(pending, len(pending), width), ends=True)
     return _array(frames, width), None
 
 
-def _fault(words: list[bytes], width: int) -> str:
+def _fault(words: list[bytes], count: int, width: int) -> str:
     for i, word in enumerate(words):
         text = word.decode("latin-1")
-        if np.isnan(number(text)):
+        if math.isnan(number(text)):
             hint = "; write decimals with a point" if "," in text else ""
             return f"number {i % width + 1} is {text[:30]!r}, not a finite number{hint}"
-    return f"{len(words)} numbers where {width} were declared" if len(words) % width else ""
+    return f"{count} numbers where {width} were declared" if len(words) % width else ""
 
 
 def _cut(values: list[float], width: int) -> list[list[float]]:
