@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from mien.errors import BodyError
@@ -373,3 +375,78 @@ def test_too_few_joints_are_no_body() -> None:
     motion = Motion(stick, np.tile(quat.IDENTITY, (2, 2, 1)), np.tile(stick.offsets, (2, 1, 1)), 0.1)
     with pytest.raises(BodyError, match="skeleton of 2 joints"):
         Body.of(motion)
+
+
+def test_a_second_root_is_no_part_of_the_body() -> None:
+    motion = walk(skeleton="standard22").motion
+    s = motion.skeleton
+    skeleton = Skeleton(
+        ("Camera", *s.names, "Prop"),
+        np.concatenate([[-1], np.where(s.parents < 0, -1, s.parents + 1), [-1]]),
+        np.concatenate([np.zeros((1, 3)), s.offsets, np.ones((1, 3))]),
+        s.end_parents + 1,
+        s.end_offsets,
+    )
+    local = np.concatenate([motion.rotations[:, :1], motion.rotations, motion.rotations[:, :1]], axis=1)
+    moved = np.concatenate(
+        [np.full((len(motion), 1, 3), 500.0), motion.translations, np.full((len(motion), 1, 3), 1.0)], axis=1
+    )
+    body, alone = Body.of(Motion(skeleton, local, moved, motion.frame_time)), Body.of(motion)
+    assert body.roles == {role: joint + 1 for role, joint in alone.roles.items()}
+    assert body.parts_of == ("", *alone.parts_of, "")
+    assert body.floor == pytest.approx(alone.floor)
+
+
+def is_sound(motion: Motion, chosen: dict[str, str]) -> bool:
+    """Whether a body is found; anything but a body of finite numbers or a BodyError fails the test."""
+    try:
+        body = Body.of(motion, map=chosen)
+    except BodyError:
+        return False
+    assert np.isfinite([body.leg_length, body.height, body.floor, *body.neutral.ravel()]).all()
+    assert body.leg_length > 0
+    return True
+
+
+WORDS = ["Hips", "LeftUpLeg", "LeftLeg", "LeftFoot", "RightArm", "Head", "Spine", "l_hand", "x", "RightHip"]
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.data())
+def test_any_tree_at_all_gives_a_body_or_a_clear_error(data: st.DataObject) -> None:
+    joints, frames = data.draw(st.integers(1, 24)), data.draw(st.integers(1, 4))
+    parents = [-1] + [data.draw(st.integers(-1, j - 1)) for j in range(1, joints)]
+    words = data.draw(st.lists(st.sampled_from(WORDS), min_size=joints, max_size=joints))
+    random = np.random.default_rng(data.draw(st.integers(0, 2**32 - 1)))
+    offsets = random.normal(size=(joints, 3)) * random.integers(0, 2, (joints, 1))
+    skeleton = Skeleton(tuple(words), np.array(parents), offsets, np.array([joints - 1]), np.zeros((1, 3)))
+    local = quat.normalise(random.normal(size=(frames, joints, 4)))
+    is_sound(Motion(skeleton, local, np.tile(offsets, (frames, 1, 1)), 0.1), {})
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.data())
+def test_any_bent_and_crippled_humanoid_gives_a_body_or_a_clear_error(data: st.DataObject) -> None:
+    motion = still(skeleton=data.draw(st.sampled_from(SKELETONS)), seconds=0.05).motion
+    random = np.random.default_rng(data.draw(st.integers(0, 2**32 - 1)))
+    size = 10.0 ** data.draw(st.integers(-6, 6)) * (random.random((len(motion.skeleton), 1)) > 0.2)
+    offsets = motion.skeleton.offsets * size
+    if data.draw(st.booleans()):
+        motion = anonymous(motion)
+    skeleton = replace(motion.skeleton, offsets=offsets)
+    local = quat.normalise(
+        motion.rotations
+        + data.draw(st.sampled_from([0.0, 0.2, 3.0])) * random.normal(size=motion.rotations.shape)
+    )
+    pairs = st.tuples(st.sampled_from(ROLES), st.sampled_from(skeleton.names))
+    is_sound(
+        Motion(skeleton, local, np.tile(offsets, (len(motion), 1, 1)), 0.1),
+        dict(data.draw(st.lists(pairs, max_size=3))),
+    )
+
+
+def test_legs_without_a_length_are_refused() -> None:
+    motion = still(skeleton="standard22", seconds=0.05).motion
+    flat = replace(motion.skeleton, offsets=np.zeros((len(motion.skeleton), 3)))
+    with pytest.raises(BodyError, match="no length"):
+        Body.of(motion.with_(skeleton=flat, translations=np.zeros_like(motion.translations)))

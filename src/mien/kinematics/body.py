@@ -125,9 +125,9 @@ def _find(motion: Motion, chosen: Mapping[str, str]) -> dict[str, Any]:
     roles = {role: found[role] for role in ROLES if role in found}
     naming.require(skeleton, roles)
     naming.check(tree, roles)
+    leg = measures.leg_length(tree, roles)
     chains = _chains(tree, roles)
     stood = stance.neutral(skeleton, tree, local, np.median(moved, axis=0), roles)
-    leg = measures.leg_length(tree, roles)
     sole = measures.soles(skeleton, stood.heights, roles, leg)
     for shared in (stood.up, stood.forward, stood.rotations):
         shared.setflags(write=False)

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ..errors import BodyError
 from ..motion import Motion, Skeleton
 from ..rotations import quaternion
 from ..typing import Array, Integers
@@ -19,9 +20,19 @@ _FRAMES = 400  # evenly spaced frames that the floor is read from
 
 
 def leg_length(body: Tree, roles: Roles) -> float:
-    """Return hip to knee to ankle: the median over frames, mean of the two sides."""
-    bones = (("hip", "knee"), ("knee", "ankle"))
-    return 0.5 * sum(body.distance(roles[f"{s}_{a}"], roles[f"{s}_{b}"]) for s in SIDES for a, b in bones)
+    """Return hip to knee to ankle: the median over frames, mean of the two sides.
+
+    Raises ``BodyError`` where a thigh or shank has no length.
+    """
+    bones = [(f"{s}_{a}", f"{s}_{b}") for s in SIDES for a, b in (("hip", "knee"), ("knee", "ankle"))]
+    lengths = [body.distance(roles[a], roles[b]) for a, b in bones]
+    if min(lengths) <= 1e-6 * max(lengths):
+        a, b = bones[int(np.argmin(lengths))]
+        raise BodyError(
+            f"{a} ({body.names[roles[a]]!r}) and {b} ({body.names[roles[b]]!r}) are at one place: a leg with "
+            "no length; name the right joints in a map file"
+        )
+    return 0.5 * sum(lengths)
 
 
 def metres_per_unit(leg: float) -> float:
