@@ -12,7 +12,7 @@ from typing import Any
 
 from .edits import pipeline
 from .emotion.files import format_recipe
-from .errors import MienError
+from .errors import MienError, sentence
 from .formats import files, load, save
 from .motion import Motion
 from .recipe import Recipe
@@ -69,11 +69,11 @@ def edit_file(job: Job) -> Outcome:
         if job.sidecar:
             files.write(sidecar_of(job.target), provenance(job, motion).encode())
     except (MienError, OSError, MemoryError) as error:
-        return Outcome(job, error=str(error) or "not enough memory for this clip")
+        return Outcome(job, error=sentence(error))
     except Exception as error:
         if os.environ.get("MIEN_DEBUG"):
             raise
-        return Outcome(job, error=f"{type(error).__name__}: {error}", unexpected=True)
+        return Outcome(job, error=sentence(error), unexpected=True)
     return Outcome(job, len(motion), motion.duration, tuple(step.edit for step in motion.history))
 
 

@@ -27,3 +27,15 @@ def unknown(kind: str, name: object, known: Iterable[str]) -> str:
     near = difflib.get_close_matches(str(name), names, n=1, cutoff=0.5)
     hint = f"; did you mean {near[0]!r}?" if near else ""
     return f"there is no {kind} {name!r}{hint} (known: {', '.join(names) or 'none'})"
+
+
+def sentence(error: BaseException) -> str:
+    """Return what went wrong in one sentence, for somebody who does not read tracebacks."""
+    if isinstance(error, MienError):
+        return str(error)
+    if isinstance(error, OSError):
+        return f"{error.filename}: {error.strerror}" if error.filename else str(error)
+    if isinstance(error, MemoryError):
+        return "not enough memory for this clip"
+    kind = type(error).__name__
+    return f"an error in mien itself, {kind}: {error} (set MIEN_DEBUG=1 to see where, and please report it)"

@@ -83,6 +83,16 @@ def test_rubbish_is_refused_without_a_traceback(folder: Path, run: Run, case: st
     assert not Path("bad_sad.bvh").exists()
 
 
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_folder_that_is_a_file_is_told_for_each_clip(folder: Path, run: Run, jobs: int) -> None:
+    Path("out").write_text("mine")
+    result = run("edit", "*.bvh", "-e", "sad", "-o", "out", "-j", jobs)
+    assert result.exit_code == 2
+    assert "walk.bvh: out: " in result.stderr
+    assert "error in mien itself" not in result.stderr
+    assert Path("out").read_text() == "mine"
+
+
 def test_one_bad_clip_among_good_ones(folder: Path, run: Run) -> None:
     Path("bad.bvh").write_bytes(RUBBISH["cut header"])
     result = run("edit", "*.bvh", "-e", "sad")

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from ..errors import MienError
+from ..errors import MienError, sentence
 from . import commands
 from .report import complain
 
@@ -54,18 +54,6 @@ def _with_edit_flags() -> typer.Typer:
     alone = typer.Typer(add_completion=False, context_settings=HELP)
     alone.command()(with_flags(edit))
     return alone
-
-
-def sentence(error: BaseException) -> str:
-    """Return what went wrong in one sentence."""
-    if isinstance(error, MienError):
-        return str(error)
-    if isinstance(error, OSError):
-        return f"{error.filename}: {error.strerror}" if error.filename else str(error)
-    if isinstance(error, MemoryError):
-        return "not enough memory for this clip"
-    kind = type(error).__name__
-    return f"an error in mien itself, {kind}: {error} (set MIEN_DEBUG=1 to see where, and please report it)"
 
 
 app = typer.Typer(

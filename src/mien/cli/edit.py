@@ -200,8 +200,7 @@ def _failure(outcome: "Outcome") -> str:
     """Return one sentence that names the clip once."""
     name = outcome.job.source.name
     where = "" if name in outcome.error else f"{outcome.job.source}: "
-    hint = " (set MIEN_DEBUG=1 to see where, and please report it)" if outcome.unexpected else ""
-    return f"{where}{outcome.error}{hint}"
+    return f"{where}{outcome.error}"
 
 
 def _as_data(outcome: "Outcome") -> dict[str, Any]:
