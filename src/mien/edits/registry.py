@@ -165,17 +165,17 @@ def check_value(owner: str, parameter: Parameter, value: Any) -> Any:
 def _number(where: str, parameter: Parameter, value: Any) -> float | int:
     if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
         raise RecipeError(f"{where} must be a number, got {value!r}")
-    about, unit = parameter.about, f" {parameter.about.unit}".rstrip()
-    low, high = about.low, about.high
-    if (low is not None and value < low) or (high is not None and value > high):
+    number, about = float(value), parameter.about
+    low, high, unit = about.low, about.high, f" {about.unit}".rstrip()
+    if (low is not None and number < low) or (high is not None and number > high):
         bounds = f"at least {low:g}" if high is None else f"at most {high:g}"
         bounds = f"from {low:g} to {high:g}" if low is not None and high is not None else bounds
-        raise RecipeError(f"{where} must be {bounds}{unit}, got {value:g}")
+        raise RecipeError(f"{where} must be {bounds}{unit}, got {number:g}")
     if parameter.kind is int:
-        if int(value) != value:
+        if not number.is_integer():
             raise RecipeError(f"{where} must be a whole number, got {value!r}")
-        return int(value)
-    return float(value)
+        return int(number)
+    return number
 
 
 def _parameters(function: Callable[..., Motion]) -> dict[str, Parameter]:
