@@ -45,9 +45,10 @@ def detect(motion: Motion, body: Body | None = None) -> Contacts:
     """Return the contacts of both feet with the floor.
 
     A contact starts where the point is less than 0.057 leg lengths (5 cm) above its own lowest level
-    and slower than 0.35 leg lengths a second (0.30 m/s; more in clips with very fast feet), ends at
-    1.5 times that, lasts at least 0.08 s, and bridges gaps up to 0.05 s. A foot without a toe, and
-    without an end site on its ankle, has only a heel.
+    and slower over the ground than 0.35 leg lengths a second (0.30 m/s; more in clips with very fast
+    feet) and no longer falling. It ends at 1.5 times that height or speed, lasts at least 0.08 s, and
+    bridges gaps up to 0.05 s. A foot without a toe, and without an end site on its ankle, has only a
+    heel.
     """
     body = body or Body.of(motion)
     rotations, positions = world(motion)
@@ -77,9 +78,12 @@ def detect_points(points: Array, body: Body, frame_time: float) -> Contacts:
     leg = body.leg_length
     height = points @ body.up
     level = _level(height, leg)
-    speed = _ground_speed(points, body, frame_time)
+    step, seconds = _step(points, frame_time)
+    speed = _length(step - (step @ body.up)[..., None] * body.up) / seconds
     fast = max(SPEED * leg, 0.06 * float(np.percentile(speed, 95)))
-    on = (height - level < HEIGHT * leg) & (speed < fast)
+    # What still falls is not down yet; what rolls off the heel rises and still stands.
+    down = _length(step) / seconds < RELEASE * fast
+    on = (height - level < HEIGHT * leg) & (speed < fast) & down
     hold = (height - level < RELEASE * HEIGHT * leg) & (speed < RELEASE * fast)
     planted = _hysteresis(on, hold)
     planted = _runs(planted, False, int(np.ceil(GAP / frame_time - 1e-9)))
@@ -97,27 +101,27 @@ def _level(height: Array, leg: float) -> Array:
     return np.where(own - common < HEIGHT * leg, own, common)
 
 
-def _ground_speed(points: Array, body: Body, frame_time: float) -> Array:
-    """Return the horizontal speed (T, 2, 2) over about a thirtieth of a second around each frame."""
+def _step(points: Array, frame_time: float) -> tuple[Array, Array]:
+    """Return how far each point goes (T, 2, 2, 3) in about a thirtieth of a second around each frame.
+
+    Also returns how long that takes, in seconds (T, 1, 1).
+    """
     reach = max(1, round(1.0 / (60.0 * frame_time)))
     frames = np.arange(len(points))
     later, earlier = np.minimum(frames + reach, len(points) - 1), np.maximum(frames - reach, 0)
-    step = points[later] - points[earlier]
-    step = step - (step @ body.up)[..., None] * body.up
-    seconds = np.maximum(later - earlier, 1) * frame_time
-    return np.sqrt(np.einsum("...i,...i->...", step, step)) / seconds[:, None, None]
+    return points[later] - points[earlier], np.maximum(later - earlier, 1)[:, None, None] * frame_time
+
+
+def _length(v: Array) -> Array:
+    return np.sqrt(np.einsum("...i,...i->...", v, v))
 
 
 def _hysteresis(on: Mask, hold: Mask) -> Mask:
-    """Return a Schmitt trigger over axis 0, run both ways: from every True of ``on`` as far as ``hold``."""
+    """Return a Schmitt trigger over axis 0: from every True of ``on`` for as long as ``hold`` lasts."""
     frames = np.arange(len(on)).reshape(-1, *[1] * (on.ndim - 1))
-
-    def forward(on: Mask, hold: Mask) -> Mask:
-        started = np.maximum.accumulate(np.where(on & hold, frames, -1), axis=0)
-        stopped = np.maximum.accumulate(np.where(hold, -1, frames), axis=0)
-        return started > stopped
-
-    return forward(on, hold) | forward(on[::-1], hold[::-1])[::-1]
+    started = np.maximum.accumulate(np.where(on & hold, frames, -1), axis=0)
+    stopped = np.maximum.accumulate(np.where(hold, -1, frames), axis=0)
+    return started > stopped
 
 
 def _runs(mask: Mask, value: bool, longest: int) -> Mask:

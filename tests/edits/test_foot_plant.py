@@ -1,0 +1,139 @@
+"""foot_plant: planted feet stand, nothing else moves, flight falls, steps carry the body."""
+
+import numpy as np
+import pytest
+
+import mien
+from mien import samples
+from mien.edits.foot_plant import foot_plant
+from mien.edits.path_length import path_length
+from mien.edits.posture import posture
+from mien.errors import MienError
+from mien.kinematics.body import Body
+from mien.kinematics.contacts import detect, foot_points, slides, spans
+from mien.kinematics.fk import world
+from mien.recipe import Step
+
+
+def lengths(motion):
+    """Bone lengths over time (T, N) of what hangs on the hips (which travel, on some skeletons)."""
+    positions, parents = world(motion)[1], motion.skeleton.parents
+    hips = Body.of(motion).roles["hips"]
+    child = np.array([j for j in motion.skeleton.descendants(hips) if j != hips])
+    return np.linalg.norm(positions[:, child] - positions[:, parents[child]], axis=2)
+
+
+def soles(motion, body):
+    return foot_points(motion, body, *world(motion)) @ body.up
+
+
+@pytest.mark.parametrize("name", ["walk", "turn", "jump", "still"])
+def test_an_unedited_clip_comes_back_unchanged(name):
+    motion = samples.SAMPLES[name]().motion
+    out = foot_plant(motion, original=motion)
+    np.testing.assert_allclose(out.rotations, motion.rotations, atol=1e-9)
+    np.testing.assert_allclose(out.translations, motion.translations, atol=1e-9)
+
+
+@pytest.mark.parametrize("skeleton", samples.SKELETONS)
+@pytest.mark.parametrize("mid", [0.3, 0.7, 1.5])
+@pytest.mark.parametrize("name", ["walk", "tired_walk", "turn"])
+def test_planted_feet_do_not_slide_nor_sink(name, mid, skeleton):
+    sample = samples.SAMPLES[name](skeleton=skeleton, unit="m")
+    body = Body.of(sample.motion)
+    edited = path_length(sample.motion, mid=mid)
+    out = foot_plant(edited, original=sample.motion)
+    contacts = detect(sample.motion, body)
+    before, bare = slides(sample.motion, contacts, body), slides(edited, contacts, body)
+    after = slides(out, contacts, body)
+    assert bare.max() > before.max() + 0.002, "the edit alone must slide, or this test shows nothing"
+    assert (after - before).max() < 1e-4, "a tenth of a millimetre"
+    assert soles(out, body).min() > soles(sample.motion, body).min() - 0.002
+    np.testing.assert_allclose(lengths(out), lengths(sample.motion), atol=1e-9)
+
+
+@pytest.mark.parametrize("mid", [0.5, 1.4])
+def test_longer_steps_travel_further(mid):
+    sample = samples.walk(seconds=4.0, unit="m")
+    hips = Body.of(sample.motion).roles["hips"]
+
+    def travel(motion):
+        path = world(motion)[1][:, hips]
+        return float(np.linalg.norm((path[-1] - path[0])[[0, 2]]))
+
+    edited = path_length(sample.motion, mid=mid)
+    moved = travel(foot_plant(edited, original=sample.motion)) / travel(sample.motion)
+    assert (moved - 1.0) * (mid - 1.0) > 0.02, "in the direction of the steps"
+    kept = travel(foot_plant(edited, original=sample.motion, travel=False)) / travel(sample.motion)
+    assert abs(kept - 1.0) < 0.02
+
+
+def test_flight_goes_on_falling_with_gravity():
+    sample = samples.jump(fps=120.0, unit="m")
+    motion = sample.motion
+    hips = Body.of(motion).roles["hips"]
+    out = foot_plant(posture(motion, arms=20.0, legs=5.0, hips_height=-0.05), original=motion)
+    start, stop = max(spans(~detect(motion).feet.any(axis=1)), key=lambda s: s[1] - s[0])
+    inside = slice(start + 10, stop - 10)
+
+    def fall(m):
+        height = world(m)[1][:, hips, 1]
+        return np.gradient(np.gradient(height, m.frame_time), m.frame_time)[inside]
+
+    np.testing.assert_allclose(fall(motion), -9.81, atol=0.3)
+    np.testing.assert_allclose(fall(out), -9.81, atol=1.0)
+
+
+def test_a_lower_pelvis_bends_the_knees_and_leaves_the_feet_where_they_are():
+    sample = samples.still(unit="m")
+    body = Body.of(sample.motion)
+    out = foot_plant(posture(sample.motion, hips_height=-0.08), original=sample.motion)
+    rise = world(out)[1][:, body.roles["hips"], 1] - world(sample.motion)[1][:, body.roles["hips"], 1]
+    np.testing.assert_allclose(rise, -0.08 * body.leg_length, atol=1e-3)
+    for role in ("left_ankle", "right_ankle"):
+        here, there = (world(m)[1][:, body.roles[role]] for m in (out, sample.motion))
+        np.testing.assert_allclose(here, there, atol=1e-5)
+    knee = world(out)[1][:, body.roles["left_knee"]] - world(sample.motion)[1][:, body.roles["left_knee"]]
+    assert (knee @ body.forward > 0.02).all(), "knees go forwards"
+
+
+@pytest.mark.parametrize("mid", [0.5, 1.5])
+def test_knees_neither_flip_nor_snap(mid):
+    motion = samples.walk(fps=60.0).motion
+    body = Body.of(motion)
+    out = foot_plant(path_length(motion, mid=mid), original=motion)
+    for side in ("left", "right"):
+        knee = body.roles[f"{side}_knee"]
+
+        def rate(m, knee=knee):
+            q = m.rotations[:, knee]
+            return np.degrees(2 * np.arccos(np.clip(np.abs((q[1:] * q[:-1]).sum(-1)), 0, 1))).max() * m.fps
+
+        assert rate(out) < 1.6 * max(mid, 1.0) * rate(motion)
+
+
+def test_edits_of_the_arms_leave_legs_and_hips_to_the_bit():
+    motion = samples.walk().motion
+    out = mien.apply(motion, [Step("path_length", {"mid": 1.6}, parts=("arms",)), Step("foot_plant")])
+    body = Body.of(motion)
+    legs = body.joints(("legs",))
+    np.testing.assert_array_equal(out.rotations[:, legs], motion.rotations[:, legs])
+    np.testing.assert_array_equal(out.translations, motion.translations)
+    assert np.abs(out.rotations - motion.rotations).max() > 0.01
+
+
+def test_a_clip_without_contacts_keeps_its_hips():
+    motion = samples.walk(unit="m").motion
+    high = np.array(motion.translations)
+    hips = Body.of(motion).roles["hips"]
+    high[:, hips] += np.cumsum(np.full((len(motion), 3), 0.05), axis=0)
+    flying = motion.with_(translations=high)
+    assert not detect(flying).points.any()
+    out = foot_plant(path_length(flying, mid=0.5), original=flying)
+    np.testing.assert_array_equal(out.translations, flying.translations)
+
+
+def test_different_frames_are_refused():
+    motion = samples.walk().motion
+    with pytest.raises(MienError, match="both must be the same"):
+        foot_plant(motion, original=motion[:10])
