@@ -7,8 +7,9 @@ stance (``N`` its world rotations), so that nothing depends on the local axes a 
 * ``additive`` adds the change of two direction vectors, ``enc(B) + w (enc(D) - enc(1))``, and makes the
   sum a rotation again, the bone's direction first (Förger 2012, section 3.4.2);
 * ``body_fixed`` turns each joint about its own axes, ``B exp(w turn)``;
-* ``anatomical`` is ``body_fixed`` for trunk, head, hands and feet, but moves upper arms and thighs by
-  their direction alone, and bends elbows and knees about the hinge they show in the clip.
+* ``anatomical`` is ``body_fixed`` for trunk, head, hands and feet, but moves upper arms (as seen from
+  the chest) and thighs by their direction alone, and bends elbows and knees about the hinge they show
+  in the clip.
 """
 
 from collections.abc import Mapping
@@ -45,10 +46,7 @@ def add_pose(
     everywhere = np.ones(len(motion))
     for segment, turn in _turns(pose, body).items():
         for joint in joints[segment]:
-            if segment == "hips":
-                above = quaternion.conjugate(hips_frame(motion, body))
-            else:
-                above = stance[motion.skeleton.parents[joint]]
+            above = _above(motion, body, stance, segment, joint, method)
             seen = quaternion.multiply(above, rotations[:, joint])
             seen = quaternion.multiply(seen, quaternion.conjugate(stance[joint]))
             weight = weights.get(body.parts_of[joint], everywhere)
@@ -56,6 +54,24 @@ def add_pose(
             local = quaternion.multiply(quaternion.conjugate(above), seen)
             rotations[:, joint] = quaternion.multiply(local, stance[joint])
     return quaternion.continuous(rotations)
+
+
+def _above(motion: Motion, body: Body, stance: Array, segment: str, joint: int, method: Method) -> Array:
+    """Return the rotations, (4,) or (T, 4), from the frame that a joint's turn is told in to its parent's."""
+    if segment == "hips":
+        return quaternion.conjugate(hips_frame(motion, body))
+    parent = int(motion.skeleton.parents[joint])
+    between, chest = [], parent
+    while method == "anatomical" and segment.endswith("_shoulder") and chest not in (*body.spine[-1:], -1):
+        between.append(chest)
+        chest = int(motion.skeleton.parents[chest])
+    if chest < 0 or not between:
+        return stance[parent]
+    # Arms move out and forward as seen from the chest; collars may be held anyhow.
+    above = stance[chest]
+    for collar in reversed(between):
+        above = quaternion.multiply(above, motion.rotations[:, collar])
+    return above
 
 
 def _changed(
