@@ -43,7 +43,7 @@ def add_pose(
     stance, positions = neutral_world(motion, body)
     bones, joints = _bones(body, positions), segment_joints(body)
     rotations = np.array(motion.rotations)
-    everywhere = np.ones(len(motion))
+    everywhere = np.ones(1)
     for segment, turn in _turns(pose, body).items():
         for joint in joints[segment]:
             above = _above(motion, body, stance, segment, joint, method)
