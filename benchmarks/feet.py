@@ -89,7 +89,7 @@ def measure(job):
         return [(str(path), "-", None, str(error))]
     if len(source) < 5:
         return []
-    contacts, cm = detect(source, body), 100 * body.metres_per_unit
+    contacts, cm = detect(source, body=body), 100 * body.metres_per_unit
     own, floor = slides(source, contacts, body), lowest(source, body)
     base = (skating(source, body), jerk(source, body), knee_rate(source, body))
     rows = []

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mien import samples
 from mien.errors import MienError
 from mien.motion import Motion, Skeleton
 from mien.recipe import Step
@@ -167,3 +168,9 @@ def test_with_changes_a_copy() -> None:
     second = first.with_(frame_time=0.25)
     assert (first.frame_time, second.frame_time) == (0.5, 0.25)
     assert second.skeleton is first.skeleton
+
+
+def test_a_notebook_shows_a_picture() -> None:
+    shown = samples.still(seconds=0.5).motion._repr_html_()
+    assert "<img" in shown
+    assert "base64" in shown

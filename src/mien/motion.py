@@ -104,6 +104,12 @@ class Motion:
     def __len__(self) -> int:
         return len(self.rotations)
 
+    def _repr_html_(self) -> str:
+        """Return a strip of poses for notebooks; the front door knows the room that draws it."""
+        import mien
+
+        return mien.render.strip_html(self)
+
     def __getitem__(self, frames: slice) -> Self:
         """Return the motion of a range of frames, e.g. ``motion[10:50]``."""
         if not isinstance(frames, slice):

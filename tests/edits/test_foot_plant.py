@@ -43,7 +43,7 @@ def test_planted_feet_do_not_slide_nor_sink(name, mid, skeleton):
     body = Body.of(sample.motion)
     edited = path_length(sample.motion, mid=mid)
     out = foot_plant(edited, original=sample.motion)
-    contacts = detect(sample.motion, body)
+    contacts = detect(sample.motion, body=body)
     before, bare = slides(sample.motion, contacts, body), slides(edited, contacts, body)
     after = slides(out, contacts, body)
     assert bare.max() > before.max() + 0.002, "the edit alone must slide, or this test shows nothing"

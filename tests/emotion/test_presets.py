@@ -118,7 +118,7 @@ def test_no_two_words_look_the_same():
 def test_feet_stay_under_every_preset(name, clip):
     motion = samples.SAMPLES[clip](fps=30.0, unit="m").motion
     body = Body.of(motion)
-    contacts = detect(motion, body)
+    contacts = detect(motion, body=body)
     out = mien.edit(motion, name)
     assert (slides(out, contacts, body) - slides(motion, contacts, body)).max() < 0.002
 

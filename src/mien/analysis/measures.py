@@ -56,7 +56,7 @@ class Footing:
     def of(cls, motion: Motion, body: Body) -> "Footing":
         """Return the footing of a motion; standing height is the 5th percentile of each point's."""
         points = foot_points(motion, body, *world(motion))
-        return cls(detect(motion, body), np.percentile(points @ body.up, 5, axis=0))
+        return cls(detect(motion, body=body), np.percentile(points @ body.up, 5, axis=0))
 
 
 def measures(motion: Motion, *, body: Body | None = None, footing: Footing | None = None) -> dict[str, float]:

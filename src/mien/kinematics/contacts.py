@@ -41,7 +41,7 @@ def spans(mask: Mask) -> list[tuple[int, int]]:
     return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
 
 
-def detect(motion: Motion, body: Body | None = None) -> Contacts:
+def detect(motion: Motion, *, body: Body | None = None) -> Contacts:
     """Return the contacts of both feet with the floor.
 
     A contact starts where the point is less than 0.057 leg lengths (5 cm) above its own lowest level
