@@ -71,10 +71,10 @@ def posture(
     Angles in degrees are added to every frame, ``hips_height`` in leg lengths to the height of the
     hips. ``pose`` is the name of a pose in ``kinematics.poses.POSES`` or the line that
     ``str(Pose)`` writes, for example of ``pose_between(neutral, sad)`` from two captured stills.
-    ``anatomical`` is the default for what real clips show: with ``additive`` an already bent elbow
-    opens instead of bending (a punch: -6 degrees for +25), and both other methods turn the plane of
-    the elbow (10 to 37 degrees) and bend straightened elbows backwards. Arms and legs drawn in stop
-    softly before hands reach the hips and feet each other.
+    ``anatomical`` is the default for what real clips show: with ``additive`` a sharply bent elbow opens
+    instead of bending (a punch: by 8 degrees where 25 more were asked), and both other methods turn
+    the plane of the elbow (by up to 20 and 37 degrees) and bend straightened elbows backwards. Arms
+    and legs drawn in stop softly before hands reach the hips and feet each other.
     """
     named, captured = named_pose(pose)
     values = {
