@@ -45,7 +45,7 @@ def test_any_tree_at_all_gives_a_body_or_a_clear_error(data: st.DataObject) -> N
 def test_any_bent_and_crippled_humanoid_gives_a_body_or_a_clear_error(data: st.DataObject) -> None:
     motion = still(skeleton=data.draw(st.sampled_from(SKELETONS)), seconds=0.05).motion
     random = np.random.default_rng(data.draw(st.integers(0, 2**32 - 1)))
-    size = 10.0 ** data.draw(st.integers(-6, 6)) * (random.random((len(motion.skeleton), 1)) > 0.2)
+    size = 10.0 ** data.draw(st.integers(-6, 6)) * (random.random((len(motion.skeleton), 1)) > 0.1)
     offsets = motion.skeleton.offsets * size
     if data.draw(st.booleans()):
         named = tuple(f"joint_{i}" for i in range(len(motion.skeleton)))
@@ -58,5 +58,5 @@ def test_any_bent_and_crippled_humanoid_gives_a_body_or_a_clear_error(data: st.D
     pairs = st.tuples(st.sampled_from(ROLES), st.sampled_from(skeleton.names))
     is_sound(
         Motion(skeleton, local, np.tile(offsets, (len(motion), 1, 1)), 0.1),
-        dict(data.draw(st.lists(pairs, max_size=3))),
+        dict(data.draw(st.just([]) | st.lists(pairs, max_size=2))),
     )
