@@ -46,10 +46,25 @@ def _read_whole(body: bytes, frames: int, width: int) -> Array | None:
         body = _tidy(body)
         signs = _count_signs(body, frames, width)
     values = None if signs is None else _parse(body, frames * width)
-    # A sign inside a number ("1-2") ends the parser's reading there, and shows as one sign too many.
-    if values is None or signs != np.count_nonzero(np.signbit(values)) or not np.isfinite(values).all():
+    if values is None or not np.isfinite(values).all():
         return None
-    return values.reshape(frames, width)
+    if signs != np.count_nonzero(np.signbit(values)):
+        values = _sign(values, body, signs)
+    return None if values is None else values.reshape(frames, width)
+
+
+def _sign(values: Array, body: bytes, signs: int | None) -> Array | None:
+    """Return the values with the signs of their words: the parser makes 0 of -0.
+
+    None if there are more ``signs`` than words that begin with one: inside a number ("1-2") the parser
+    stops reading.
+    """
+    letters = np.frombuffer(body, np.uint8)
+    starts = np.flatnonzero(letters[:-1] <= ord(" ")) + 1
+    minus = letters[np.concatenate([[0], starts])] == ord("-")
+    if np.count_nonzero(minus) != signs:
+        return None
+    return np.copysign(values.ravel(), np.where(minus, -1.0, 1.0))
 
 
 def _count_signs(body: bytes, frames: int, width: int) -> int | None:
