@@ -16,16 +16,10 @@ WORDS = ("sad", "afraid", "strong", "proud")
 
 
 def picture() -> Image.Image:
-    """Return two columns of two words each; the walk they are made from is the ghost."""
+    """Return one row for each word; the walk they are made from is the ghost."""
     walk = mien.apply(samples.walk().motion, [mien.Step("trim", {"end": 2.0})])
-    columns = [
-        render.compare({w: mien.edit(walk, w) for w in words}, against=walk, poses=3, width=800)
-        for words in (WORDS[:2], WORDS[2:])
-    ]
-    sheet = Image.new("RGB", (1600, max(c.height for c in columns)), columns[0].getpixel((0, 0)))
-    for number, column in enumerate(columns):
-        sheet.paste(column, (800 * number, 0))
-    return sheet
+    rows = {word: mien.edit(walk, word) for word in WORDS}
+    return render.compare(rows, against=walk, poses=6, width=1400)
 
 
 if __name__ == "__main__":

@@ -32,6 +32,10 @@ ARRAYS_ONLY = ("rotations", "signal")
 DISPLAY = {("motion", "")}
 # Files of edits/ that are not an edit themselves; every edit may import these and no other.
 SHARED = ("__init__", "registry", "pipeline")
+# (importer, imported) that may go against the table, and why.
+EXCUSED = {
+    ("motion", ""): "a motion shows itself in notebooks; who draws it is looked up when it is asked to",
+}
 LEVEL = {room: number for number, line in enumerate(LAYERS) for room in line}
 
 

@@ -246,12 +246,15 @@ def test_result_does_not_depend_on_the_unit(name: str, parameters: dict[str, Any
 @every_clip
 @every_case
 def test_result_does_not_depend_on_the_frame_rate(name: str, parameters: dict[str, Any], which: str) -> None:
-    """The same movement sampled at 60 and 120 Hz: at the frames both have, within 1 % of a leg length."""
+    """The same movement sampled at 60 and 120 Hz: at the frames both have, within 1.5 % of a leg length.
+
+    Not closer, as contacts and pauses begin and end on whole frames.
+    """
     slow, fast = (done(clip(which, fps=fps), name, parameters) for fps in (60.0, 120.0))
     assert slow.duration == pytest.approx(fast.duration, abs=slow.frame_time)
     step = round(fast.fps / slow.fps)
     common = min(len(slow), len(fast[::step]))
-    assert np.abs(points(slow)[:common] - points(fast[::step])[:common]).max() < 0.01
+    assert np.abs(points(slow)[:common] - points(fast[::step])[:common]).max() < 0.015
 
 
 @every_clip

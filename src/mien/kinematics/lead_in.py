@@ -15,7 +15,7 @@ JUMP = 0.026  # radians, on average over the joints: one and a half degrees from
 def lead_in(motion: Motion) -> int:
     """Return how many frames at the start belong to a still such as a T-pose, 0 where there is none.
 
-    Such frames are left by a jump of more than one and a half degrees on average over the joints, and by turns
+    Such frames are left by a jump of more than one and a half degrees on average over the joints, by turns
     more than twice as fast as nine in ten later frames; they lie within the first quarter second.
     """
     within = int(LONGEST / motion.frame_time) + 1
