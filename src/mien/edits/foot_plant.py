@@ -20,6 +20,7 @@ from ..errors import MienError
 from ..kinematics.body import Body
 from ..kinematics.contacts import Contacts, detect_points, foot_points
 from ..kinematics.fk import end_positions, world
+from ..kinematics.poses import neutral_world
 from ..kinematics.two_bone import two_bone
 from ..motion import Motion
 from ..rotations import quaternion
@@ -290,24 +291,20 @@ def _bend_leg(
 
 
 def _hinge(before: _Pose, body: Body, foot: int) -> Array:
-    """Return the axis (3,) about which the knee bends, in the thigh's own axes, from the original motion."""
+    """Return the axis (3,) about which the knee bends, in the thigh's own axes.
+
+    It comes from the frames of the original in which the knee is clearly bent; a leg that never bends
+    has the hinge of the neutral stance, square to the walking direction.
+    """
     hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
-    thigh, shank = (
-        before.positions[:, hip] - before.positions[:, knee],
-        before.positions[:, ankle] - before.positions[:, knee],
+    thigh = before.positions[:, hip] - before.positions[:, knee]
+    shank = before.positions[:, ankle] - before.positions[:, knee]
+    normal = np.cross(thigh, shank)
+    size = np.linalg.norm(normal, axis=1) / (
+        np.linalg.norm(thigh, axis=1) * np.linalg.norm(shank, axis=1) + 1e-300
     )
-    normal = quaternion.rotate(quaternion.conjugate(before.rotations[:, hip]), np.cross(thigh, shank))
-    mean = normal.sum(axis=0)
-    prior = quaternion.rotate(quaternion.conjugate(_neutral_world(before.motion, body, hip)), -body.left)
-    mean = mean + 0.05 * body.leg_length**2 * prior
-    return mean / np.linalg.norm(mean)
-
-
-def _neutral_world(motion: Motion, body: Body, joint: int) -> Array:
-    """Return the world rotation (4,) of a joint in the neutral stance."""
-    q = body.neutral[joint]
-    parent = int(motion.skeleton.parents[joint])
-    while parent >= 0:
-        q = quaternion.multiply(body.neutral[parent], q)
-        parent = int(motion.skeleton.parents[parent])
-    return q
+    clear = np.clip((size - 0.25) / 0.25, 0.0, 1.0)
+    normal = quaternion.rotate(quaternion.conjugate(before.rotations[:, hip]), normal * clear[:, None])
+    standing = quaternion.conjugate(neutral_world(before.motion, body)[0][hip])
+    mean = normal.mean(axis=0) + 0.01 * body.leg_length**2 * quaternion.rotate(standing, -body.left)
+    return np.asarray(mean / np.linalg.norm(mean))

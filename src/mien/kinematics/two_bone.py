@@ -43,7 +43,7 @@ def _bend(to_root: Array, to_tip: Array, hinge: Array, *, trusting: bool) -> tup
     plane = normal / np.maximum(size, 1e-300)[:, None]
     aligned = np.einsum("ti,ti->t", plane, square)
     side = np.where(aligned < 0, -1.0, 1.0)
-    share = _ramp(sine, 0.02, 0.1) if trusting else _ramp(sine, 0.05, 0.2) * _ramp(np.abs(aligned), 0.3, 0.8)
+    share = _ramp(sine, 0.02, 0.1) if trusting else _ramp(sine, 0.1, 0.45) * _ramp(np.abs(aligned), 0.3, 0.8)
     axis = _unit((share * side)[:, None] * plane + (1 - share)[:, None] * square)
     across = np.einsum("ti,ti->t", normal, axis)
     flat = np.einsum("ti,ti->t", to_root - _along(to_root, axis), to_tip - _along(to_tip, axis))
