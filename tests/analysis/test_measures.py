@@ -100,6 +100,26 @@ def test_feet_that_slide_and_sink_are_measured() -> None:
     assert found["foot_sink"] - measures(still)["foot_sink"] == pytest.approx(2.0, abs=0.1)
 
 
+def test_a_t_pose_before_the_motion_does_not_count() -> None:
+    walk = samples.walk(fps=60.0).motion
+    pose = np.array(Body.of(walk).neutral)
+    for side, turn in (("left", 80.0), ("right", -80.0)):
+        joint = Body.of(walk).roles[f"{side}_shoulder"]
+        pose[joint] = quaternion.multiply(quaternion.exp(np.radians([0.0, 0.0, turn])), pose[joint])
+    places = (
+        walk.translations[:1] + 20.0 * Body.of(walk).forward * (np.arange(len(walk.skeleton)) == 0)[:, None]
+    )
+    still = walk.with_(
+        rotations=np.concatenate([pose[None], walk.rotations]),
+        translations=np.concatenate([places, walk.translations]),
+    )
+    body = Body.of(walk)
+    wanted, found = measures(walk, body=body), measures(still, body=body)
+    assert found.pop("duration") > wanted.pop("duration")
+    for name, value in wanted.items():
+        assert found[name] == pytest.approx(value), name
+
+
 @pytest.mark.parametrize("frames", [1, 2, 3])
 def test_short_clips_have_measures_or_none(frames: int) -> None:
     with np.errstate(all="raise"):

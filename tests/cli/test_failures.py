@@ -49,7 +49,7 @@ def test_bad_usage_is_told_in_a_sentence(folder: Path, run: Run, case: str) -> N
     result = run(*arguments)
     assert result.exit_code == 2
     assert result.stdout == ""
-    assert words in " ".join(result.stderr.replace("│", " ").split())
+    assert words.lower() in " ".join(result.stderr.replace("│", " ").split()).lower()
     assert "Traceback" not in result.stderr
     assert sorted(folder.rglob("*")) == before
 

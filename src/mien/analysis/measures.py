@@ -13,6 +13,7 @@ from ..kinematics.body import SIDES, Body
 from ..kinematics.contacts import Contacts, detect, foot_points, slides
 from ..kinematics.fk import world
 from ..kinematics.heading import heading_rotation
+from ..kinematics.lead_in import lead_in
 from ..kinematics.poses import neutral_world
 from ..motion import Motion
 from ..rotations import quaternion
@@ -47,16 +48,22 @@ MEASURES: Mapping[str, Measure] = {
 
 @dataclass(frozen=True, eq=False)
 class Footing:
-    """What the feet of a source clip do: its contacts, and the standing height (2, 2) of each point."""
+    """What the feet of a source clip do, from frame ``start`` on, after a T-pose that may come first.
 
+    ``contacts``, and the standing height ``level`` (2, 2) of each point of the feet.
+    """
+
+    start: int
     contacts: Contacts
     level: Array
 
     @classmethod
     def of(cls, motion: Motion, body: Body) -> "Footing":
         """Return the footing of a motion; standing height is the 5th percentile of each point's."""
+        start = lead_in(motion)
+        motion = motion[start:]
         points = foot_points(motion, body, *world(motion))
-        return cls(detect(motion, body=body), np.percentile(points @ body.up, 5, axis=0))
+        return cls(start, detect(motion, body=body), np.percentile(points @ body.up, 5, axis=0))
 
 
 def measures(motion: Motion, *, body: Body | None = None, footing: Footing | None = None) -> dict[str, float]:
@@ -67,10 +74,11 @@ def measures(motion: Motion, *, body: Body | None = None, footing: Footing | Non
     straight; ``arm_swing`` is the range (5th to 95th percentile) of the upper arm's angle seen from the
     side. ``foot_slide`` is the mean over contacts, ``foot_sink`` the deepest. ``body`` and ``footing``
     are those of the source clip when the motion was made from one: then slide and sink are judged where
-    the source's feet stood.
+    the source's feet stood. A T-pose before the motion is left out, but for ``duration``.
     """
     body = body or Body.of(motion)
     footing = footing or Footing.of(motion, body)
+    duration, motion = motion.duration, motion[footing.start :]
     rotations, positions = world(motion)
     frame = quaternion.conjugate(heading_rotation(positions, body))
     centimetres = 100.0 * body.metres_per_unit
@@ -87,7 +95,7 @@ def measures(motion: Motion, *, body: Body | None = None, footing: Footing | Non
         "step_length": _step_length(points[:, :, 0], footing.contacts, body) * centimetres,
         "speed": way / motion.duration if motion.duration else NAN,
         "travelled": way,
-        "duration": motion.duration,
+        "duration": duration,
         "foot_slide": float(slid.mean()) * centimetres if len(slid) else NAN,
         "foot_sink": max(0.0, float((footing.level - points @ body.up).max())) * centimetres,
     }
