@@ -70,16 +70,16 @@ class Edit:
     def perform(self, motion: Motion, values: Mapping[str, Any], *, original: Motion | None = None) -> Motion:
         """Run the edit with checked values, giving a repair the reference and carrying that along.
 
-        A still at the start of the capture, such as a T-pose, is no movement and is left as it is.
+        A still at the start of the capture, such as a T-pose, is no movement: poses are edited without it.
         """
         reference = motion.reference or motion
+        if self.kind == "repair":
+            return self.run(motion, **values, original=original or reference).with_(reference=reference)
         if self.kind == "time":
             after = self.run(motion, **values)
             return after.with_(reference=after if reference is motion else self.run(reference, **values))
-        original = original or reference
-        still = lead_in(original) if len(original) == len(motion) else 0
-        extra = {"original": without_lead_in(original, still)} if self.kind == "repair" else {}
-        after = self.run(without_lead_in(motion, still), **values, **extra)
+        still = lead_in(reference) if len(reference) == len(motion) else 0
+        after = self.run(without_lead_in(motion, still), **values)
         return with_lead_in(after, motion, still).with_(reference=reference)
 
     def complete(self, given: Mapping[str, Any]) -> dict[str, Any]:

@@ -7,6 +7,7 @@ them out.
 import numpy as np
 
 from ..motion import Motion
+from ..rotations import quaternion
 
 LONGEST = 0.25  # seconds
 JUMP = 0.026  # radians, on average over the joints: one and a half degrees from one frame to the next
@@ -39,9 +40,18 @@ def without_lead_in(motion: Motion, frames: int) -> Motion:
 
 
 def with_lead_in(motion: Motion, source: Motion, frames: int) -> Motion:
-    """Return the motion with its first ``frames`` taken from ``source``."""
+    """Return the motion with the still of ``source`` in its first ``frames``.
+
+    The very first frame is the source's own; over the others what was changed right after the still
+    grows in, so that nothing jumps that did not jump before.
+    """
     if not frames:
         return motion
     rotations, translations = np.array(motion.rotations), np.array(motion.translations)
-    rotations[:frames], translations[:frames] = source.rotations[:frames], source.translations[:frames]
-    return motion.with_(rotations=rotations, translations=translations)
+    share = np.arange(frames)[:, None] / frames
+    change = quaternion.multiply(quaternion.conjugate(source.rotations[frames]), motion.rotations[frames])
+    rotations[:frames] = quaternion.multiply(source.rotations[:frames], quaternion.power(change, share))
+    moved = motion.translations[frames] - source.translations[frames]
+    translations[:frames] = source.translations[:frames] + share[..., None] * moved
+    rotations[0] = source.rotations[0]
+    return motion.with_(rotations=quaternion.continuous(rotations), translations=translations)
