@@ -16,6 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 OLDEST = (3, 11)
+FAILED: list[str] = []  # checks that did not pass; the others go on, so that one run tells all
 
 
 def python_of(environment: Path) -> Path:
@@ -23,14 +24,17 @@ def python_of(environment: Path) -> Path:
     return environment / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
 
 
-def run(title: str, *command: object, folder: Path = ROOT) -> None:
-    """Run a command, say how long it took, and stop everything when it fails."""
+def run(title: str, *command: object, folder: Path = ROOT, needed: bool = False) -> None:
+    """Run a command and say how it ended and after how long; stop everything when a needed one fails."""
     print(f"== {title}", flush=True)
     start = time.monotonic()
     done = subprocess.run([str(c) for c in command], cwd=folder)
     if done.returncode:
-        sys.exit(f"== {title}: FAILED (exit code {done.returncode})")
-    print(f"== {title}: done in {time.monotonic() - start:.0f} s", flush=True)
+        FAILED.append(title)
+        print(f"== {title}: FAILED (exit code {done.returncode})", flush=True)
+        if needed:
+            sys.exit(1)
+    print(f"== {title}: {time.monotonic() - start:.0f} s", flush=True)
 
 
 def environment(path: Path) -> Path:
@@ -43,24 +47,35 @@ def environment(path: Path) -> Path:
 
 def check_wheel(python: Path, place: Path) -> None:
     """Build the wheel, install it where nothing of the source tree can be seen, and run the demo."""
-    run("build the wheel", python, "-m", "build", "--wheel", "--outdir", place / "dist")
+    run("build the wheel", python, "-m", "build", "--wheel", "--outdir", place / "dist", needed=True)
     wheel = next((place / "dist").glob("*.whl"))
     clean = environment(place / "clean")
-    run("install the wheel in an empty environment", clean, "-m", "pip", "install", "--quiet", wheel)
+    run(
+        "install the wheel in an empty environment",
+        clean,
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        wheel,
+        needed=True,
+    )
     run("the demo, from the wheel", clean, "-m", "mien", "demo", folder=place)
     made = sorted(p.name for p in place.rglob("*") if p.suffix in (".bvh", ".png") and "clean" not in p.parts)
     if not (any(n.endswith(".bvh") for n in made) and any(n.endswith(".png") for n in made)):
-        sys.exit(f"== the demo should have written a BVH and a picture, found {made}")
+        FAILED.append("the demo's files")
+        print(f"== the demo should have written a BVH and a picture, found {made}", flush=True)
 
 
 def main() -> None:
-    """Run every check; the first that fails ends the run with its name and an exit code above 0."""
+    """Run every check; end with the names of those that failed and an exit code above 0."""
     if sys.version_info < OLDEST:
         sys.exit(f"mien needs Python {'.'.join(map(str, OLDEST))} or newer, this is {sys.version.split()[0]}")
     python = environment(ROOT / ".venv")
     install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    run("pip that knows dependency groups", *install, "--upgrade", "pip>=25.1")
-    run("install mien and its tools", *install, "--editable", ".[all]", "--group", "dev", "--group", "docs")
+    run("pip that knows dependency groups", *install, "--upgrade", "pip>=25.1", needed=True)
+    groups = ["--group", "dev", "--group", "docs"]
+    run("install mien and its tools", *install, "--editable", ".[all]", *groups, needed=True)
     run("ruff check", python, "-m", "ruff", "check", ".")
     run("ruff format", python, "-m", "ruff", "format", "--check", ".")
     run("mypy", python, "-m", "mypy")
@@ -71,7 +86,7 @@ def main() -> None:
         check_wheel(python, place)
     finally:
         shutil.rmtree(place, ignore_errors=True)
-    print("== all checks passed")
+    sys.exit(f"== FAILED: {', '.join(FAILED)}" if FAILED else None)
 
 
 if __name__ == "__main__":
