@@ -34,6 +34,7 @@ def run(title: str, *command: object, folder: Path = ROOT, needed: bool = False)
         print(f"== {title}: FAILED (exit code {done.returncode})", flush=True)
         if needed:
             sys.exit(1)
+        return
     print(f"== {title}: {time.monotonic() - start:.0f} s", flush=True)
 
 

@@ -62,12 +62,10 @@ def test_every_page_is_of_an_edit() -> None:
     assert pages - {"index"} == set(EDITS), "a page without its edit, or an edit without its page"
 
 
-def documented() -> set[str]:
+def documented() -> list[str]:
     """Return the dotted names that the reference pages describe."""
-    found: set[str] = set()
-    for page in (DOCS / "api").glob("*.md"):
-        found |= set(re.findall(r"\.\. auto\w+:: (mien[\w.]*)", page.read_text(encoding="utf-8")))
-    return found
+    pages = "".join(page.read_text(encoding="utf-8") for page in (DOCS / "api").glob("*.md"))
+    return re.findall(r"\.\. auto\w+:: (mien[\w.]*)", pages)
 
 
 def public() -> set[str]:
@@ -83,9 +81,15 @@ def public() -> set[str]:
 
 
 def test_every_public_name_is_in_the_reference_and_the_other_way_round() -> None:
-    missing, gone = sorted(public() - documented()), sorted(documented() - public())
+    described = set(documented())
+    missing, gone = sorted(public() - described), sorted(described - public())
     assert not missing, f"add these to a page in docs/api: {missing}"
     assert not gone, f"these are in docs/api but not public any more: {gone}"
+
+
+def test_no_name_is_described_twice() -> None:
+    twice = sorted(name for name in set(documented()) if documented().count(name) > 1)
+    assert not twice, f"leave one description of each in docs/api: {twice}"
 
 
 @pytest.mark.parametrize("package", INTERFACES)
