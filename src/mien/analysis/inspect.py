@@ -69,9 +69,9 @@ def _jumps(motion: Motion, positions: Array, body: Body) -> list[str]:
     found = [i for i in np.flatnonzero(steps > far).tolist() if i + 1 != lead_in(motion)]
     if not found:
         return []
-    more = f", and {len(found) - 1} times more" if len(found) > 1 else ""
+    first, more = found[0], f", and {len(found) - 1} times more" if len(found) > 1 else ""
     return [
-        f"the hips jump {steps[found[0]]:.1f} leg lengths from frame {found[0]} to frame {found[0] + 1}{more}: "
+        f"the hips jump {steps[first]:.1f} leg lengths from frame {first} to frame {first + 1}{more}: "
         "broken positions, or a cut; trim if not meant"
     ]
 
