@@ -169,12 +169,13 @@ def _follow(angles: Array, source: Array, edited: Mask) -> Array:
     """
     frames = np.arange(len(angles))[:, None]
     anchor = np.maximum.accumulate(np.where(edited, 0, frames), axis=0)
+    anchor = anchor if anchor.any() else anchor[:1]  # one choice for all, if all frames are edited
     own = np.take_along_axis(angles, anchor[..., None], axis=0)
     wanted = np.take_along_axis(source, anchor[..., None], axis=0)
-    flip = _gap(_other(own), wanted) < _gap(own, wanted)
-    branch = np.where(flip[..., None], _other(own), own)
-    turns = 360.0 * np.round((wanted - branch) / 360.0)
-    return np.where(flip[..., None], _other(angles), angles) + turns
+    flip = (_gap(_other(own), wanted) < _gap(own, wanted))[..., None]
+    turns = np.round((wanted - np.where(flip, _other(own), own)) / 360.0)
+    followed = np.where(flip, _other(angles), angles) if flip.any() else angles
+    return followed + 360.0 * turns if turns.any() else followed
 
 
 def _other(angles: Array) -> Array:

@@ -10,6 +10,7 @@ from ..typing import Array, Mask
 from .quaternion import multiply
 
 AXES = {"X": 0, "Y": 1, "Z": 2}
+TURN = 2.0 * np.pi
 
 
 def from_euler(angles: Array, order: str) -> Array:
@@ -64,24 +65,31 @@ def to_euler(q: Array, order: str) -> Array:
 
 def _smooth(angles: Array, gimbal: Mask, total: Array, sign: float) -> Array:
     """Choose the branch nearest to the frame before; only frames where it matters are looped over."""
-    turn = 2.0 * np.pi
-    angles = (angles + np.pi) % turn - np.pi
+    angles = _wrap(angles)
     if gimbal.any():
         _hold_gimbal(angles, gimbal, total, sign)
     if len(angles) < 2:
         return angles
-    other = np.stack([angles[..., 0] + np.pi, np.pi - angles[..., 1], angles[..., 2] + np.pi], axis=-1)
-    other = (other + np.pi) % turn - np.pi
+    other = _wrap(np.pi + angles * np.array([1.0, -1.0, 1.0]))
     # Which of the two triples follows: a chain of yes/no, as both choices see the same step cost.
     stay = _gap(angles[1:], angles[:-1]) <= _gap(other[1:], angles[:-1])
-    swapped = np.zeros(angles.shape[:-1], bool)
-    swapped[1:] = np.cumsum(~stay, axis=0) % 2 == 1
-    angles = np.where(swapped[..., None], other, angles)
-    return np.unwrap(angles, axis=0)
+    if not stay.all():
+        swapped = np.zeros(angles.shape[:-1], bool)
+        swapped[1:] = np.cumsum(~stay, axis=0) % 2 == 1
+        angles = np.where(swapped[..., None], other, angles)
+    turns = np.rint(np.diff(angles, axis=0) / TURN)
+    if turns.any():
+        angles[1:] -= TURN * np.cumsum(turns, axis=0)
+    return angles
+
+
+def _wrap(angles: Array) -> Array:
+    """Return the angles in [-pi, pi]."""
+    return angles - TURN * np.rint(angles / TURN)
 
 
 def _gap(a: Array, b: Array) -> Array:
-    difference = (a - b + np.pi) % (2.0 * np.pi) - np.pi
+    difference = _wrap(a - b)
     return np.einsum("...i,...i->...", difference, difference)
 
 
