@@ -166,10 +166,10 @@ def test_an_ease_longer_than_half_the_span_is_cut_to_it(clip: Motion) -> None:
     np.testing.assert_allclose(after.translations[3, 0, 0], after.translations[5, 0, 0], atol=1e-12)
 
 
-def test_a_span_given_for_all_is_for_steps_that_have_none(clip: Motion) -> None:
-    own, given = (0.0, 0.3), (0.5, 1.0)
-    after = apply(clip, [Step("shift", span=own), Step("shift")], span=given)
-    assert [s.span for s in after.history] == [own, given]
+def test_a_span_given_for_all_and_a_step_of_its_own_leave_what_lies_in_both(clip: Motion) -> None:
+    steps = [Step("shift", span=(0.0, 0.7)), Step("shift"), Step("shift", span=(0.0, 0.3))]
+    after = apply(clip, steps, span=(0.5, 1.0))
+    assert [s.span for s in after.history] == [(0.5, 0.7), (0.5, 1.0)]
 
 
 def test_a_repair_gets_the_motion_before_any_step(clip: Motion) -> None:

@@ -299,10 +299,9 @@ def _hinge(before: _Pose, body: Body, foot: int) -> Array:
     hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
     thigh = before.positions[:, hip] - before.positions[:, knee]
     shank = before.positions[:, ankle] - before.positions[:, knee]
-    normal = np.cross(thigh, shank)
-    size = np.linalg.norm(normal, axis=1) / (
-        np.linalg.norm(thigh, axis=1) * np.linalg.norm(shank, axis=1) + 1e-300
-    )
+    normal: Array = np.cross(thigh, shank)
+    lengths = np.linalg.norm(thigh, axis=1) * np.linalg.norm(shank, axis=1)
+    size = np.linalg.norm(normal, axis=1) / np.maximum(lengths, 1e-300)
     clear = np.clip((size - 0.25) / 0.25, 0.0, 1.0)
     normal = quaternion.rotate(quaternion.conjugate(before.rotations[:, hip]), normal * clear[:, None])
     standing = quaternion.conjugate(neutral_world(before.motion, body)[0][hip])

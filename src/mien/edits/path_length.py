@@ -9,7 +9,7 @@ together with other gains. The hips turn free of the heading, so that the way so
 bend; they do not travel here: ``foot_plant`` rebuilds that from the feet.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Annotated, Literal
 
@@ -59,14 +59,15 @@ def path_length(
         directions.Orthogonalise,
         Param("keep each bone's direction and let its twist give way, or share the error"),
     ] = "gram-schmidt",
+    joints: Sequence[int] | None = None,
 ) -> Motion:
     """Lengthen (mid above 1) or shorten (below 1) the paths of the movement around its slow mean.
 
     ``H = g_low G_6 + g_mid (G_2 - G_6) + g_high (1 - G_2)`` on the direction vectors of every joint from
     the hips down (Förger 2011, equations 1 to 3). As only directions matter, all gains equal change
     nothing. The nominal borders of 1 and 12.5 Hz have their half amplitudes at 0.5 and 8.2 Hz; with
-    ``mode="edges"`` they lie at ``edge_low`` and ``edge_high``. Raises ``BodyError`` where no body is
-    found and ``RecipeError`` where the edges are in the wrong order.
+    ``mode="edges"`` they lie at ``edge_low`` and ``edge_high``. ``joints`` limits the work.
+    Raises ``BodyError`` where no body is found and ``RecipeError`` where the edges are in the wrong order.
     """
     if not edge_low < edge_high:
         raise RecipeError(
@@ -76,12 +77,13 @@ def path_length(
         return motion
     body = Body.of(motion)
     hips = body.roles["hips"]
-    joints = motion.skeleton.descendants(hips)
+    below = motion.skeleton.descendants(hips)
     rotations, frame = heading_free(motion, body)
-    frames = period(rotations[:, joints], boundary)
+    frames = period(rotations[:, below], boundary)
     change = _filter(mode, motion.fps, (low, mid, high), (edge_low, edge_high), frames > 0)
     u, v = directions.axes(main_bones(motion.skeleton))
-    for some in _chunks(joints, len(motion)):
+    wanted = below if joints is None else [j for j in below if j in set(joints)]
+    for some in _chunks(wanted, len(motion)):
         before = rotations[:, some]
         codes = _round(change, directions.encode(before, u[some], v[some]), frames)
         rotations[:, some] = directions.decode(

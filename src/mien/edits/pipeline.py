@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import RecipeError, unknown
 from ..kinematics.body import Body
+from ..kinematics.parts import common_parts
 from ..motion import Motion
 from ..recipe import Recipe, Step
 from ..rotations import quaternion
@@ -45,8 +46,8 @@ def apply(
 ) -> Motion:
     """Apply a recipe and return a new motion whose history has one more step for each step done.
 
-    ``strength`` multiplies every step's own (0 returns the motion itself); ``parts`` and ``span``
-    limit the steps that name none.
+    ``strength`` multiplies every step's own (0 returns the motion itself). Of steps that edit the pose
+    only what lies within ``parts`` and ``span`` is done; repairs see the whole clip.
     """
     if not 0.0 <= strength <= 2.0:
         raise RecipeError(f"strength must be from 0 to 2, got {strength:g}")
@@ -54,31 +55,43 @@ def apply(
     if strength == 0.0:
         return motion
     for step in steps:
-        pose = EDITS[step.edit].kind == "pose"
-        step = replace(
-            step,
-            strength=min(step.strength * strength, 2.0) if pose else step.strength,
-            parts=step.parts or tuple(parts) if pose else (),
-            span=step.span or span if pose else None,
-        )
-        motion = _apply_step(motion, step)
+        limited = _limited(step, strength, tuple(parts), span)
+        if limited is not None:
+            motion = _apply_step(motion, limited)
     return motion
+
+
+def _limited(
+    step: Step, strength: float, parts: tuple[str, ...], span: tuple[float, float] | None
+) -> Step | None:
+    """Return the step as it is to be done, or None where nothing of it is left."""
+    if EDITS[step.edit].kind != "pose":
+        return replace(step, parts=(), span=None)
+    both = common_parts(step.parts, parts)
+    start, end = step.span or span or (0.0, 1.0)
+    if step.span and span:
+        start, end = max(step.span[0], span[0]), min(step.span[1], span[1])
+    if both is None or start >= end:
+        return None
+    limits = (start, end) if step.span or span else None
+    return replace(step, strength=min(step.strength * strength, 2.0), parts=both, span=limits)
 
 
 def _apply_step(motion: Motion, step: Step) -> Motion:
     if step.strength == 0.0:
         return motion
     edit = EDITS[step.edit]
-    after = edit.perform(motion, edit.scaled(step.parameters, step.strength))
+    joints = Body.of(motion).joints(step.parts) if step.parts else None
+    after = edit.perform(motion, edit.scaled(step.parameters, step.strength), joints=joints)
     if step.parts or step.span:
-        after = _blend(motion, after, _weights(motion, step))
+        after = _blend(motion, after, _weights(motion, step, joints))
     return after.with_(history=(*motion.history, step))
 
 
-def _weights(motion: Motion, step: Step) -> Array:
+def _weights(motion: Motion, step: Step, wanted: list[int] | None) -> Array:
     """Return how much of the edit shows (T, J): the body parts times the span with its eases."""
     joints = np.zeros(len(motion.skeleton))
-    joints[Body.of(motion).joints(step.parts) if step.parts else slice(None)] = 1.0
+    joints[slice(None) if wanted is None else wanted] = 1.0
     if step.span is None:
         return np.broadcast_to(joints, (len(motion), len(joints)))
     start, end = step.span

@@ -2,7 +2,7 @@
 
 To the motion: the head sinks, the trunk bends, elbows go out, the stance widens, while the movement
 itself goes on. To the viewer: head and trunk down read as sad or tired, elbows and feet apart as
-strong, arms and feet drawn in as weak, afraid or feminine (Förger 2012, chapter 5). Where an arm or leg
+strong, arms and feet drawn in as weak, afraid or feminine (Förger 2011, chapter 5). Where an arm or leg
 is far from where it hangs, as in a reach or a kick, its change fades out, so that the aim is kept.
 
 Feet move with the legs and hips: let ``foot_plant`` follow.
@@ -36,7 +36,7 @@ def _degrees(doc: str, low: float, high: float) -> Param:
 
 
 @edit(
-    paper="Förger (2012), section 3.4.2; angles and fade-out limits: METHODS A3",
+    paper="Förger 2011, section 3.4.2; angles and fade-out limits: METHODS A3",
     equation="enc'(t) = enc(t) + s w(t) (enc(P) - enc(N)),  w = 1 - smoothstep(0.6 L, 1.1 L, |e(t) - e_N|)",
     deviations="the default method adds the change joint by joint as anatomy has it (kinematics/posing.py); "
     "`additive` is the thesis's. Angles and fade-out limits were not published.",

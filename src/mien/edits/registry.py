@@ -1,7 +1,7 @@
 """The one registry of edits: a typed, keyword-only signature makes flag, slider, check and docs."""
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import wraps
 from math import inf, isfinite
@@ -15,6 +15,8 @@ from ..motion import Motion
 from ..recipe import Step
 
 Kind = Literal["pose", "time", "repair"]
+# What the pipeline gives an edit that asks for it: no parameters, as no recipe holds them.
+NOT_PARAMETERS = ("original", "joints")
 
 
 @dataclass(frozen=True)
@@ -66,10 +68,19 @@ class Edit:
     equation: str
     deviations: str
     parameters: Mapping[str, Parameter]
+    by_joint: bool
 
-    def perform(self, motion: Motion, values: Mapping[str, Any], *, original: Motion | None = None) -> Motion:
+    def perform(
+        self,
+        motion: Motion,
+        values: Mapping[str, Any],
+        *,
+        original: Motion | None = None,
+        joints: Sequence[int] | None = None,
+    ) -> Motion:
         """Run the edit with checked values, giving a repair the reference and carrying that along.
 
+        ``joints`` are those that are asked for; an edit that goes joint by joint leaves out the others.
         A still at the start of the capture, such as a T-pose, is no movement: poses are edited without it.
         """
         reference = motion.reference or motion
@@ -79,7 +90,8 @@ class Edit:
             after = self.run(motion, **values)
             return after.with_(reference=after if reference is motion else self.run(reference, **values))
         still = lead_in(reference) if len(reference) == len(motion) else 0
-        after = self.run(without_lead_in(motion, still), **values)
+        only = {"joints": joints} if self.by_joint else {}
+        after = self.run(without_lead_in(motion, still), **values, **only)
         return with_lead_in(after, motion, still).with_(reference=reference)
 
     def complete(self, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -114,14 +126,17 @@ def edit(*, kind: Kind = "pose", paper: str, equation: str = "", deviations: str
 
     The registered function checks its parameters and appends one step to the motion's history. A
     ``repair`` also takes ``original``, the motion to compare with (without it the motion before the first
-    step of the history), which is not a parameter.
+    step of the history), which is not a parameter. Nor is ``joints`` of an edit that works joint by joint:
+    the joints whose result is wanted (None: all).
     """
 
     def register(function: Callable[..., Motion]) -> Callable[..., Motion]:
         name = function.__name__
         known = _parameters(function)
         doc = inspect.getdoc(function) or ""
-        found = Edit(name, function, kind, doc.split("\n")[0], paper, equation, deviations, known)
+        by_joint = "joints" in inspect.signature(function).parameters
+        summary = doc.split("\n")[0]
+        found = Edit(name, function, kind, summary, paper, equation, deviations, known, by_joint)
 
         @wraps(function)
         def run(motion: Motion, **given: Any) -> Motion:
@@ -183,7 +198,7 @@ def _parameters(function: Callable[..., Motion]) -> dict[str, Parameter]:
     hints = get_type_hints(function, include_extras=True)
     found = {}
     for name, p in list(inspect.signature(function).parameters.items())[1:]:
-        if name == "original":
+        if name in NOT_PARAMETERS:
             continue
         hint = hints[name]
         if p.kind is not p.KEYWORD_ONLY or p.default is p.empty or get_origin(hint) is not Annotated:

@@ -47,8 +47,8 @@ def edit(
     """Return ``motion`` edited by an emotion word, a recipe file, a recipe or a list of steps.
 
     ``strength`` from 0 (nothing) over 1 (as written) to 2 multiplies every step's own; ``parts``
-    (``"arms"`` or ``("head", "arms")``) and ``span`` (start and end in seconds) limit the steps that
-    name none. Raises ``RecipeError`` for what is unknown or out of range.
+    (``"arms"`` or ``("head", "arms")``) and ``span`` (start and end in seconds) limit what is changed;
+    the feet are put back over the whole clip. Raises ``RecipeError`` for what is unknown or out of range.
     """
     chosen = (parts,) if isinstance(parts, str) else tuple(parts)
     return pipeline.apply(motion, resolve(what), strength=strength, parts=chosen, span=span)

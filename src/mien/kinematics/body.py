@@ -15,6 +15,7 @@ from ..motion import Motion
 from ..typing import Array, Integers
 from . import measures, stance, topology
 from . import roles as naming
+from .parts import PARTS as PARTS
 from .roles import ARM as ARM
 from .roles import LEG as LEG
 from .roles import OPTIONAL as OPTIONAL
@@ -24,21 +25,6 @@ from .roles import TRUNK as TRUNK
 from .roles import read_map as read_map
 from .tree import Tree
 from .tree import tree as make_tree
-
-# Names a person may give to --parts; each is a set of the five limbs and the torso.
-PARTS: Mapping[str, tuple[str, ...]] = {
-    "head": ("head",),
-    "torso": ("torso",),
-    "left_arm": ("left_arm",),
-    "right_arm": ("right_arm",),
-    "left_leg": ("left_leg",),
-    "right_leg": ("right_leg",),
-    "arms": ("left_arm", "right_arm"),
-    "legs": ("left_leg", "right_leg"),
-    "upper": ("head", "torso", "left_arm", "right_arm"),
-    "left": ("left_arm", "left_leg"),
-    "right": ("right_arm", "right_leg"),
-}
 
 
 @dataclass(frozen=True, eq=False)
