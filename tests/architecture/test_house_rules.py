@@ -174,11 +174,14 @@ FORBIDDEN = {
     r"\b(TO" + r"DO|FIX" + r"ME|XX" + r"X)\b": "do it now, or write it into an issue",
     r"NotImplemented" + r"Error": "leave out what is not there yet",
     r"(?<![\w.])/(wo" + r"rk|ro" + r"ot|home/\w+|Users/\w+|t" + r"mp)(/|\b)": "no path of one machine",
+    r"METHODS " + r"[A-Z]\d": "METHODS.md has no such section: name the paper, or say it in words",
     r"breakpoint\(\)|pdb\.set_" + r"trace": "left over from a search for a bug",
 }
 
 
-@pytest.mark.parametrize("pattern", FORBIDDEN, ids=["unfinished", "not there", "machine path", "debugger"])
+@pytest.mark.parametrize(
+    "pattern", FORBIDDEN, ids=["unfinished", "not there", "machine path", "dead reference", "debugger"]
+)
 def test_nothing_of_the_workshop_is_left_lying_about(pattern: str) -> None:
     found = []
     for file in texts():

@@ -77,7 +77,7 @@ def test_symmetric_posture_commutes() -> None:
 
 
 def test_half_a_stride_later_a_symmetric_walk_is_its_own_mirror() -> None:
-    """METHODS F4: at 2 steps a second half a stride is 30 frames. Told by distances, as headings differ."""
+    """At 2 steps a second half a stride is 30 frames. Told by distances, as headings differ."""
     walk = samples.walk(seconds=3.0, fps=60.0, cadence=2.0).motion
     body = Body.of(walk)
     roles = list(body.roles.values())

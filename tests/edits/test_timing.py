@@ -1,4 +1,4 @@
-"""timing: what METHODS A4 lists, on an arm whose movement is known."""
+"""timing: on an arm whose movement is known."""
 
 import numpy as np
 import pytest

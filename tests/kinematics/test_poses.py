@@ -100,7 +100,7 @@ def test_named_poses_are_values_that_posture_has() -> None:
 @pytest.mark.parametrize("skeleton", samples.SKELETONS)
 @pytest.mark.parametrize("method", ["additive", "body_fixed", "anatomical"])
 def test_a_pose_put_on_a_still_is_read_off_it_again(skeleton: str, method: str) -> None:
-    """Whichever way it is added, at the neutral stance the result is the pose itself (METHODS A3)."""
+    """Whichever way it is added, at the neutral stance the result is the pose itself."""
     neutral = still(skeleton)
     found = pose_between(neutral, posture(neutral, pose=str(SAD), method=method, fade=False))
     body = Body.of(neutral)

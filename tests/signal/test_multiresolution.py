@@ -1,4 +1,4 @@
-"""Bands: the values computed for METHODS A2, a slow twin of the cascade, SciPy's frequency responses."""
+"""Bands: exact shares of sinusoids, a slow twin of the cascade, SciPy's frequency responses."""
 
 from itertools import pairwise
 

@@ -1,4 +1,4 @@
-"""Maps of time: what METHODS A4 says of them, on curves of speed made by hand."""
+"""Maps of time: on curves of speed made by hand."""
 
 import numpy as np
 import pytest
@@ -179,7 +179,7 @@ class TestSourceTimes:
 
 
 def test_a_knock_becomes_even_while_it_moves():
-    """METHODS A4: std / mean over moving frames from .32 to .05; 0.4 s moves with 0.3 s pauses here."""
+    """As computed for the thesis's rule: std / mean over moving frames from .32 to .05; 0.4 s moves with 0.3 s pauses here."""
     t = np.arange(241) / 100.0
     x = np.zeros(241)
     for start, sign in ((0.3, 1), (1.0, -1), (1.7, 1)):
@@ -201,7 +201,7 @@ def test_a_knock_becomes_even_while_it_moves():
 
 
 def test_two_speeds_become_one_but_for_the_smoothing_of_speed():
-    """METHODS A4: below 2%. What is left lies within 0.1 s of the step: the longer the clip, the less."""
+    """Below 2%. What is left lies within 0.1 s of the step: the longer the clip, the less."""
     t = np.arange(2001) / 100.0
     x = np.where(t < 10.0, t, 10.0 + 3.0 * (t - 10.0))
     speed, step = time_map.speed_curve(np.stack([x, 0 * x, 0 * x], -1), 0.01)

@@ -2,7 +2,7 @@
 
 To the motion: every joint does what its partner did, seen in a mirror that stands along the way the
 clip starts, so it starts at the same place with the same heading and turns the other way. To the viewer: a
-right-handed wave becomes a left-handed one. METHODS F4.
+right-handed wave becomes a left-handed one.
 """
 
 from ..kinematics.body import Body

@@ -36,7 +36,7 @@ def _degrees(doc: str, low: float, high: float) -> Param:
 
 
 @edit(
-    paper="Förger 2011, section 3.4.2; angles and fade-out limits: METHODS A3",
+    paper="Förger 2011, section 3.4.2",
     equation="enc'(t) = enc(t) + s w(t) (enc(P) - enc(N)),  w = 1 - smoothstep(0.6 L, 1.1 L, |e(t) - e_N|)",
     deviations="the default method adds the change joint by joint as anatomy has it (kinematics/posing.py); "
     "`additive` is the thesis's. Angles and fade-out limits were not published.",

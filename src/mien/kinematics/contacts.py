@@ -1,7 +1,7 @@
 """Foot contacts: when which foot stands on the floor, and how far it slides while it stands.
 
 A point of a foot is planted while it is low and slow, with hysteresis so that noise does not make it
-flicker (METHODS F1; Förger 2011, section 3.5). Heel (the ankle joint) and toe are judged apart, as a
+flicker (Förger 2011, section 3.5). Heel (the ankle joint) and toe are judged apart, as a
 step rolls from one to the other.
 """
 

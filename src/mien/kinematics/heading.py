@@ -1,7 +1,7 @@
 """Which way a body faces over time, and the frame that turns with it.
 
 Heading is the yaw of the line from the right to the left hip about the up axis: steadier than any
-Euler angle of the hips (METHODS F3).
+Euler angle of the hips.
 """
 
 import numpy as np

@@ -32,7 +32,7 @@ SEGMENTS = ("hips", "trunk", "neck", "head", *LIMB_SEGMENTS)
 # A segment that a skeleton lacks hands its turn to another; without one, the turn is left out.
 HEIRS = {"neck": "head", "head": "neck", "left_collar": "left_shoulder", "right_collar": "right_shoulder"}
 
-# Published as words only (Förger 2012, section 5.1); the degrees are ours (METHODS A3).
+# Published as words only (Förger 2011, section 5.1); the degrees are ours.
 POSES: Mapping[str, Mapping[str, float]] = {
     "head_down": {"head": 25.0},
     "elbows_out": {"arms": 20.0, "elbows": 10.0},
@@ -137,7 +137,7 @@ def pose_between(neutral: Motion, changed: Motion) -> Pose:
     """Return how ``changed`` is held differently from ``neutral``: ``v = log(N^T P)`` for each segment.
 
     Both are stills or short clips (their mean pose is taken) of the same actor. Where they stand and
-    which way they face does not matter; the pitch and roll of the hips do (Förger 2012, section 3.4.2).
+    which way they face does not matter; the pitch and roll of the hips do (Förger 2011, section 3.4.2).
     """
     body = Body.of(neutral)
     same = neutral.skeleton.names == changed.skeleton.names

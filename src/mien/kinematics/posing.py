@@ -5,7 +5,7 @@ stance (``N`` its world rotations), so that nothing depends on the local axes a 
 ``D = exp(turn)`` and weight ``w``:
 
 * ``additive`` adds the change of two direction vectors, ``enc(B) + w (enc(D) - enc(1))``, and makes the
-  sum a rotation again, the bone's direction first (Förger 2012, section 3.4.2);
+  sum a rotation again, the bone's direction first (Förger 2011, section 3.4.2);
 * ``body_fixed`` turns each joint about its own axes, ``B exp(w turn)``;
 * ``anatomical`` is ``body_fixed`` for trunk, head, hands and feet, but moves upper arms (as seen from
   the chest) and thighs by their direction alone, and bends elbows and knees about the hinge they show

@@ -1,4 +1,4 @@
-"""Motions whose every number is known in closed form, for testing signal processing (METHODS F8)."""
+"""Motions whose every number is known in closed form, for testing signal processing."""
 
 from dataclasses import replace
 from typing import Unpack
