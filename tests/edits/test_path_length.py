@@ -1,4 +1,4 @@
-"""path_length: a hinge computed in closed form, frame rates, loops, the hips, and gains that change nothing."""
+"""path_length: a hinge in closed form, frame rates, loops, the hips, and gains that change nothing."""
 
 import numpy as np
 import pytest

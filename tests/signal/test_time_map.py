@@ -179,7 +179,7 @@ class TestSourceTimes:
 
 
 def test_a_knock_becomes_even_while_it_moves():
-    """As computed for the thesis's rule: std / mean over moving frames from .32 to .05; 0.4 s moves with 0.3 s pauses here."""
+    """As the thesis has it: std / mean over moving frames from .32 to .05; here 0.4 s moves, 0.3 s pauses."""
     t = np.arange(241) / 100.0
     x = np.zeros(241)
     for start, sign in ((0.3, 1), (1.0, -1), (1.7, 1)):
