@@ -124,7 +124,7 @@ HEADER_DAMAGE = {
     "another kind of text": ('{"asset": {"version": "2.0"}}', "does not start with HIERARCHY"),
     "another kind of text with MOTION": ("hello\nMOTION\n", "line 1: not a BVH file: it starts with 'hello'"),
     "binary": (bytes(range(256)) * 40, "not a text file"),
-    "UTF-16": (clip().encode("utf-16"), "UTF-16|not a text file"),
+    "UTF-16": (clip().encode("utf-16"), "this is UTF-16 text; save it as UTF-8"),
     "no Frames": (clip().replace("Frames: 10\n", ""), "line 17: expected 'Frames: 10'"),
     "no Frame Time": (clip().replace("Frame Time: 0.01\n", ""), "line 18: expected 'Frame Time: 0.01'"),
     "ends after MOTION": (HEAD, "expected 'Frames"),

@@ -62,7 +62,7 @@ def _read_header(data: bytes, where: str, *, fps: float | None, salvage: bool) -
     found = _MOTION.search(data)
     if found is None:
         raise FormatError(f"{where}: {_no_motion(data)}")
-    text, encoding = decode(data[: found.start(1)], where)
+    text, encoding = decode(data[: found.start(1)])
     skeleton, channels, whole = read_hierarchy(text, where, salvage=salvage)
     if not any(channels):
         raise FormatError(f"{where}: no joint has channels, so there is no motion in the file")
@@ -96,6 +96,8 @@ def _decimals(data: bytes, start: int) -> int:
 def _no_motion(data: bytes) -> str:
     if not data.strip():
         return "the file is empty"
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "this is UTF-16 text; save it as UTF-8"
     if b"\0" in data[:4096]:
         return "this is not a text file, so not BVH"
     if data.removeprefix(b"\xef\xbb\xbf").lstrip()[:9].upper() != b"HIERARCHY":

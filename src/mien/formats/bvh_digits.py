@@ -110,14 +110,15 @@ def read_fixed(body: bytes, width: int) -> Array | None:
 
 def _read_block(letters: Letters, places: int, width: int) -> Array | None:
     """Read whole lines; before them stand eight letters that are not theirs."""
-    ends = np.flatnonzero(letters[8:] <= ord(" ")) + 8
-    starts = np.concatenate([[8], ends[:-1] + 1])
+    gaps = np.flatnonzero(letters <= ord(" "))
+    gaps = gaps[np.searchsorted(gaps, 8) :]
+    starts, ends = np.concatenate([[8], gaps[:-1] + 1]), gaps
     if (starts == ends).any():  # several separators in a row
         starts, ends = starts[starts < ends], ends[starts < ends]
     points = ends - places - 1
     minus = letters[starts] == ord("-")
     digits = points - starts - minus  # before the point
-    if not _regular(letters, ends, width) or ((digits < 1) | (digits > 8)).any():
+    if not _regular(letters, gaps, ends, width) or ((digits < 1) | (digits > 8)).any():
         return None
     if np.count_nonzero(letters[8:] == ord(".")) != len(ends) or (letters[points] != ord(".")).any():
         return None
@@ -129,9 +130,10 @@ def _read_block(letters: Letters, places: int, width: int) -> Array | None:
     return np.negative(values, where=minus, out=values).reshape(-1, width)
 
 
-def _regular(letters: Letters, ends: Integers, width: int) -> bool:
+def _regular(letters: Letters, gaps: Integers, ends: Integers, width: int) -> bool:
     """Return whether there is a line break after every ``width`` numbers and nowhere else."""
-    breaks = np.flatnonzero((letters[8:] == ord("\n")) | (letters[8:] == ord("\r"))) + 8
+    marks = letters[gaps]
+    breaks = gaps[(marks == ord("\n")) | (marks == ord("\r"))]
     before = np.unique(np.searchsorted(ends, breaks, side="right"))
     return bool((before % width == 0).all()) and np.count_nonzero(before) * width == len(ends)
 

@@ -51,10 +51,8 @@ class BvhLayout:
         return sum(map(len, self.channels))
 
 
-def decode(header: bytes, where: str) -> tuple[str, str]:
+def decode(header: bytes) -> tuple[str, str]:
     """Return the text of a header and its encoding: UTF-8, else what Windows wrote before it."""
-    if header[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        raise FormatError(f"{where} is UTF-16 text; save it as UTF-8")
     for encoding in ("utf-8-sig" if header.startswith(b"\xef\xbb\xbf") else "utf-8", "cp1252"):
         try:
             return header.decode(encoding), encoding
