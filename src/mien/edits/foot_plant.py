@@ -29,6 +29,7 @@ from ..typing import Array, Mask
 from .registry import Param, edit
 
 SIDES = ("left", "right")
+UNTOUCHED = 0.003  # leg lengths: a swinging foot nearer than this to its goal is moved only in part
 CLEARANCE = 0.7  # the share of the original's swing height that is kept
 
 
@@ -266,28 +267,33 @@ def _bend_leg(
 ) -> None:
     """In place: bend one leg so that its ankle and foot reach the goal; the toes stand as in the original."""
     hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
-    parents = after.motion.skeleton.parents
+    world, parents = after.rotations, after.motion.skeleton.parents
+    target = _reachable(before, after, goal, planted, body, foot)
     upper, lower = two_bone(
         after.positions[:, hip],
         after.positions[:, knee],
         after.positions[:, ankle],
-        _reachable(before, after, goal, planted, body, foot),
-        quaternion.rotate(after.rotations[:, hip], _hinge(before, body, foot)),
+        target,
+        quaternion.rotate(world[:, hip], _hinge(before, body, foot)),
     )
-    moved = np.array(after.rotations)
-    for joint in after.motion.skeleton.descendants(hip):
-        moved[:, joint] = quaternion.multiply(upper, after.rotations[:, joint])
-    for joint in after.motion.skeleton.descendants(knee):
-        moved[:, joint] = quaternion.multiply(lower, after.rotations[:, joint])
-    moved[:, ankle] = goal.turn
-    for joint in (hip, knee, ankle):
-        parent = int(parents[joint])
-        turned_parent = quaternion.conjugate(moved[:, parent]) if parent >= 0 else quaternion.IDENTITY
-        rotations[:, joint] = quaternion.multiply(turned_parent, moved[:, joint])
+    # A swinging leg that is where it should be is not touched: an over-stretched knee stays as it was.
+    away = np.linalg.norm(target - after.positions[:, ankle], axis=1) / (UNTOUCHED * body.leg_length)
+    share = np.where(planted, 1.0, np.clip(away, 0.0, 1.0))
+    upper, lower = quaternion.power(upper, share), quaternion.power(lower, share)
+    turn = quaternion.slerp(world[:, ankle], goal.turn, share)
+
+    def local(parent: int, above: Array, turned: Array) -> Array:
+        outer = quaternion.multiply(above, world[:, parent]) if parent >= 0 else above
+        return quaternion.multiply(quaternion.conjugate(outer), turned)
+
+    rotations[:, hip] = local(
+        int(parents[hip]), quaternion.IDENTITY, quaternion.multiply(upper, world[:, hip])
+    )
+    rotations[:, knee] = local(int(parents[knee]), upper, quaternion.multiply(lower, world[:, knee]))
+    rotations[:, ankle] = local(int(parents[ankle]), lower, turn)
+    stands = np.clip(goal.stands, 0.0, 1.0)
     for joint in after.motion.skeleton.descendants(ankle)[1:]:
-        rotations[:, joint] = quaternion.slerp(
-            rotations[:, joint], before.motion.rotations[:, joint], np.clip(goal.stands, 0, 1)
-        )
+        rotations[:, joint] = quaternion.slerp(rotations[:, joint], before.motion.rotations[:, joint], stands)
 
 
 def _hinge(before: _Pose, body: Body, foot: int) -> Array:
