@@ -3,8 +3,9 @@
 Run: python benchmarks/bvh_io.py [--frames 10000]
 
 Makes a clip of 22 joints (69 channels, six decimals), then has each library load it and save it again.
-Prints the best time of several runs in milliseconds, the ratio to ours, and the peak of memory
-over one load and save (Python's and NumPy's; what bvhio keeps in C++ is not seen). Our load includes the quaternions of all joints. Each library runs
+Prints the best time of several runs in milliseconds, the ratio to ours, and the peak of memory over one
+load and save (Python's and NumPy's; what bvhio keeps in C++ is not seen). Our load includes the
+quaternions of all joints, as does that of bvhio; pybvh keeps the angles. Each library runs
 in a process of its own.
 """
 

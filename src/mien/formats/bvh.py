@@ -134,8 +134,7 @@ def _show(text: bytes) -> str:
 
 
 def _read_values(data: bytes, where: str, layout: BvhLayout, declared: int, *, salvage: bool) -> Array:
-    body = data[len(layout.header) :]
-    values, problem = read_rows(body, layout.width)
+    values, problem = read_rows(data, len(layout.header), layout.width)
     frames = len(values)
     if problem and (not salvage or not frames):
         line = _line(data, len(layout.header)) + problem.line

@@ -20,6 +20,7 @@ Words = NDArray[np.uint64]
 
 _BLOCK = 1024  # frames at a time, so that the words stay in the cache
 _LETTERS = 1 << 17  # letters at a time, for the same reason
+_LAST = np.array([2**64 - 2 ** (64 - 8 * n) for n in range(9)], np.uint64)  # selects the last n letters
 
 
 def write_rows(values: Array, newline: bytes, *, decimals: int) -> bytes:
@@ -86,25 +87,26 @@ def _decimals(point: bytes, unused: int) -> Array:
     return _table([point + (b"%03d" % i)[: 3 - unused] for i in range(1000)])
 
 
-def read_fixed(body: bytes, width: int) -> Array | None:
-    """Return the rows ``(T, width)`` of a text whose numbers all have as many decimals, one to seven.
+def read_fixed(data: bytes, start: int, width: int) -> Array | None:
+    """Return the rows ``(T, width)`` that ``data`` holds from ``start`` on, if all have as many decimals.
 
-    None where it is anything else: the caller must then read it in another way. Each number is the
-    float64 nearest to its text.
+    One to seven of them; None where it is anything else: the caller must then read in another way. Each
+    number is the float64 nearest to its text.
     """
-    point = body.find(b".")
-    fraction = body[point + 1 : point + 9].split()
+    point = data.find(b".", start)
+    fraction = data[point + 1 : point + 9].split()
     places = len(fraction[0]) if point >= 0 and fraction else 0
-    if not 1 <= places <= 7:
+    if not 1 <= places <= 7 or start < 8:
         return None
-    text, at, rows = b"\n" * 8 + body + b"\n", 8, []
-    while at < len(text):
-        stop = text.rfind(b"\n", at, at + _LETTERS) + 1 or len(text)
-        values = _read_block(np.frombuffer(text, np.uint8)[at - 8 : stop], places, width)
+    data = data if data.endswith(b"\n") else data + b"\n"
+    rows = []
+    while start < len(data):
+        stop = data.rfind(b"\n", start, start + _LETTERS) + 1 or len(data)
+        values = _read_block(np.frombuffer(data, np.uint8, stop - start + 8, start - 8), places, width)
         if values is None:
             return None
         rows.append(values)
-        at = stop
+        start = stop
     return np.concatenate(rows)
 
 
@@ -140,8 +142,7 @@ def _regular(letters: Letters, gaps: Integers, ends: Integers, width: int) -> bo
 
 def _add_up(words: Words, digits: Integers | int) -> Words | None:
     """Return the numbers that the last ``digits`` letters of each word spell; None if one is no digit."""
-    unused = np.uint64(64) - np.uint64(8) * np.asarray(digits, np.uint64)
-    words = ((words ^ np.uint64(0x3030303030303030)) >> unused) << unused
+    words = (words ^ np.uint64(0x3030303030303030)) & _LAST[digits]
     if ((words | (words + np.uint64(0x7676767676767676))) & np.uint64(0x8080808080808080)).any():
         return None
     pairs = words * np.uint64(10) + (words >> np.uint64(8))

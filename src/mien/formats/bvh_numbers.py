@@ -27,11 +27,13 @@ class Problem:
     ends: bool = False
 
 
-def read_rows(body: bytes, width: int) -> tuple[Array, Problem | None]:
-    """Return the whole frames ``(T, width)`` before the first problem, and that problem."""
-    values = read_fixed(body, width)
-    if values is None:
-        values = _read_plain(body, width)
+def read_rows(data: bytes, start: int, width: int) -> tuple[Array, Problem | None]:
+    """Return the whole frames ``(T, width)`` from byte ``start`` to the first problem, and that problem."""
+    values = read_fixed(data, start, width)
+    if values is not None:
+        return values, None
+    body = data[start:]
+    values = _read_plain(body, width)
     return (values, None) if values is not None else _read_careful(body, width)
 
 
