@@ -4,8 +4,9 @@ Frames first, joints second, components last. Quaternions ``xyzw``, unit, child-
 the clip's own unit. ``T`` frames, ``J`` joints, ``E`` end sites.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Mapping
+from copy import copy
+from dataclasses import dataclass, field
 from typing import Any, Self
 
 import numpy as np
@@ -86,6 +87,10 @@ class Motion:
     reference: Self | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
+        self._check({"rotations", "translations"})
+
+    def _check(self, changed: Collection[str]) -> None:
+        """Raise ``MienError`` for what cannot be; of the long arrays only what changed is looked at."""
         frames, joints = len(self.rotations), len(self.skeleton)
         _set(self, "rotations", (frames, joints, 4))
         _set(self, "translations", (frames, joints, 3))
@@ -93,11 +98,12 @@ class Motion:
             raise MienError("a motion needs at least one frame")
         if not (np.isfinite(self.frame_time) and self.frame_time > 0):
             raise MienError(f"frame time must be above 0 seconds, got {self.frame_time}")
-        if not np.isfinite(self.translations).all():
+        if "translations" in changed and not np.isfinite(self.translations).all():
             raise MienError("translations hold a number that is not finite")
-        length = np.einsum("tji,tji->tj", self.rotations, self.rotations)
-        if not (np.abs(length - 1.0) < 1e-6).all():
-            raise MienError("rotations must be unit quaternions (xyzw)")
+        if "rotations" in changed:
+            length = np.einsum("tji,tji->tj", self.rotations, self.rotations)
+            if not (np.abs(length - 1.0) < 1e-6).all():
+                raise MienError("rotations must be unit quaternions (xyzw)")
         if self.reference is not None and self.reference.rotations.shape != self.rotations.shape:
             object.__setattr__(self, "reference", None)
 
@@ -139,7 +145,14 @@ class Motion:
 
     def with_(self, **fields: Any) -> Self:
         """Return a copy with some fields replaced."""
-        return replace(self, **fields)
+        unknown = set(fields) - set(self.__dataclass_fields__)
+        if unknown:
+            raise TypeError(f"a motion has no {', '.join(sorted(unknown))}")
+        made = copy(self)
+        for name, value in fields.items():
+            object.__setattr__(made, name, value)
+        made._check(fields)
+        return made
 
 
 def _set(owner: object, name: str, shape: tuple[int, ...], dtype: type = np.float64) -> None:

@@ -106,9 +106,14 @@ def _weights(motion: Motion, step: Step, wanted: list[int] | None) -> Array:
 def _blend(before: Motion, after: Motion, weights: Array) -> Motion:
     """Blend joint by joint; weight 0 gives the numbers of ``before`` and 1 those of ``after``, exactly."""
     rotations, translations = np.array(before.rotations), np.array(before.translations)
-    whole, part = weights >= 1.0, (weights > 0.0) & (weights < 1.0)
-    rotations[whole], translations[whole] = after.rotations[whole], after.translations[whole]
-    w = weights[part]
-    rotations[part] = quaternion.slerp(before.rotations[part], after.rotations[part], w)
-    translations[part] += w[:, None] * (after.translations[part] - before.translations[part])
+    for joint in np.flatnonzero(weights.any(axis=0)):
+        w = weights[:, joint]
+        whole, part = w >= 1.0, (w > 0.0) & (w < 1.0)
+        rotations[whole, joint] = after.rotations[whole, joint]
+        translations[whole, joint] = after.translations[whole, joint]
+        if part.any():
+            here, there = before.rotations[part, joint], after.rotations[part, joint]
+            rotations[part, joint] = quaternion.slerp(here, there, w[part])
+            step = after.translations[part, joint] - before.translations[part, joint]
+            translations[part, joint] += w[part, None] * step
     return after.with_(rotations=quaternion.continuous(rotations), translations=translations)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..typing import Array, Mask
+from ..typing import Array, Integers, Mask
 
 
 def hold_gaps(values: Array, known: Mask) -> Array:
@@ -21,52 +21,40 @@ def curve_gaps(values: Array, known: Mask, *, reach: int) -> Array:
     Where a gap is longer than ``2 reach`` frames, or at an end of the clip, the values fade to zero
     within ``reach`` frames of the known side and back again.
     """
-    out = np.where(known.reshape(-1, *[1] * (values.ndim - 1)), values, 0.0)
+    flat = np.where(known[:, None], values.reshape(len(values), -1), 0.0)
     at = np.flatnonzero(known)
-    if not len(at):
-        return out
-    reach = max(reach, 1)
-    starts = np.concatenate([[-1], at])
-    stops = np.concatenate([at, [len(values)]])
-    for a, b in zip(starts, stops, strict=True):
-        if b - a > 2 * reach or a < 0 or b == len(values):
-            _fade(out, values, known, a, min(a + reach, b), 1)
-            _fade(out, values, known, b, max(b - reach, a), -1)
-        elif b - a > 1:
-            s = (np.arange(1, b - a) / (b - a)).reshape(-1, *[1] * (values.ndim - 1))
-            first, last = _slope(values, known, a, -1) * (b - a), _slope(values, known, b, 1) * (b - a)
-            out[a + 1 : b] = _hermite(s, values[a], first, values[b], last)
-    return out
+    gap = np.flatnonzero(~known)
+    if len(at) and len(gap):
+        place = np.searchsorted(at, gap)
+        before, after = np.r_[-1, at][place], np.r_[at, len(values)][place]
+        has_before, has_after = before >= 0, after < len(values)
+        joined = has_before & has_after & (after - before <= 2 * reach)
+        slope = np.diff(flat, axis=0, prepend=flat[:1]) * (known & np.r_[False, known[:-1]])[:, None]
+        ahead = np.diff(flat, axis=0, append=flat[-1:]) * (known & np.r_[known[1:], False])[:, None]
+        _join(flat, gap[joined], before[joined], after[joined], slope, ahead)
+        longest = np.minimum(max(reach, 1), after - before)
+        left = has_before & ~joined & (gap - before < longest)
+        right = has_after & ~joined & (after - gap < longest)
+        _fade(flat, gap[left], before[left], longest[left], slope)
+        _fade(flat, gap[right], after[right], longest[right], -ahead)
+    return flat.reshape(values.shape)
 
 
-def _fade(out: Array, values: Array, known: Mask, edge: int, end: int, way: int) -> None:
-    """In place: let the value at ``edge`` die out towards ``end`` (not included)."""
-    if not 0 <= edge < len(values) or edge == end:
-        return
-    length = abs(end - edge)
-    s = (np.arange(1, length) / length).reshape(-1, *[1] * (values.ndim - 1))
-    slope = _slope(values, known, edge, -way) * length * way
-    zero = np.zeros_like(values[edge])
-    frames = edge + way * np.arange(1, length)
-    out[frames] = _hermite(s, values[edge], slope, zero, zero)
-
-
-def _slope(values: Array, known: Mask, edge: int, way: int) -> Array:
-    """Return the change a frame at ``edge``, seen from its known side (``way`` frames further)."""
-    other = edge + way
-    if not (0 <= other < len(values)) or not known[other]:
-        return np.zeros_like(values[edge])
-    return (values[other] - values[edge]) * way
-
-
-def _hermite(s: Array, a: Array, slope_a: Array, b: Array, slope_b: Array) -> Array:
+def _join(out: Array, frames: Integers, a: Integers, b: Integers, slope: Array, ahead: Array) -> None:
+    """In place: fill ``frames`` with the cubic from each ``a`` to each ``b`` and their slopes."""
+    length = (b - a)[:, None]
+    s = (frames - a)[:, None] / length
     square, cube = s * s, s * s * s
-    return (
-        (2 * cube - 3 * square + 1) * a
-        + (cube - 2 * square + s) * slope_a
-        + (3 * square - 2 * cube) * b
-        + (cube - square) * slope_b
-    )
+    bends = (cube - 2 * square + s) * length * slope[a] + (cube - square) * length * ahead[b]
+    out[frames] = (2 * cube - 3 * square + 1) * out[a] + (3 * square - 2 * cube) * out[b] + bends
+
+
+def _fade(out: Array, frames: Integers, edge: Integers, length: Integers, slope: Array) -> None:
+    """In place: add what each ``edge`` leaves on ``frames`` while it dies out over ``length`` frames."""
+    s = (np.abs(frames - edge) / length)[:, None]
+    square, cube = s * s, s * s * s
+    bend = (cube - 2 * square + s) * length[:, None] * slope[edge]
+    out[frames] += (2 * cube - 3 * square + 1) * out[edge] + bend
 
 
 def envelope(values: Array, *, reach: int) -> Array:
