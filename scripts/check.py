@@ -76,7 +76,7 @@ def main() -> None:
     install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     run("pip that knows dependency groups", *install, "--upgrade", "pip>=25.1", needed=True)
     groups = ["--group", "dev", "--group", "docs"]
-    run("install mien and its tools", *install, "--editable", ".[all]", *groups, needed=True)
+    run("install mien and its tools", *install, "--editable", ".[video]", *groups, needed=True)
     run("ruff check", python, "-m", "ruff", "check", ".")
     run("ruff format", python, "-m", "ruff", "format", "--check", ".")
     run("mypy", python, "-m", "mypy")
