@@ -203,3 +203,17 @@ def test_broadcasting_one_rotation_over_many_vectors() -> None:
     np.testing.assert_allclose(quat.rotate(q, v), v @ quat.to_matrix(q).T, atol=1e-14)
     many = sample("uniform", (5, 2))
     assert quat.multiply(q, many).shape == (5, 2, 4)
+
+
+@pytest.mark.parametrize("apart", [0.0, 1e-7, 1.0, 3.1, np.pi])
+def test_from_axes_is_from_matrix_with_the_sign_of_near(apart: float) -> None:
+    rng = np.random.default_rng(5)
+    q = quat.normalise(rng.normal(size=(50, 3, 4)))
+    axis = rng.normal(size=(50, 3, 3))
+    axis *= apart / np.linalg.norm(axis, axis=-1, keepdims=True)
+    near = quat.multiply(q, quat.exp(axis))
+    m = quat.to_matrix(q)
+    found = quat.from_axes(m[..., 0], m[..., 1], m[..., 2], near=near)
+    np.testing.assert_allclose(np.abs(np.sum(found * q, axis=-1)), 1.0, atol=1e-12)
+    if apart < 2.9:
+        assert (np.sum(found * near, axis=-1) > 0).all()

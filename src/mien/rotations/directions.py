@@ -58,7 +58,7 @@ def decode(
     ``gram-schmidt`` keeps the bone's direction exactly and lets the twist take the error of codes that
     are no longer orthogonal; ``svd`` shares it (the nearest rotation). Codes that say nothing (see
     ``degenerate``) repeat the previous frame, or before the first good frame take ``fallback``
-    ``(T, ..., 4)`` (default: no rotation).
+    ``(T, ..., 4)`` (default: no rotation), the rotations before the codes were changed.
     """
     if orthogonalise not in ("gram-schmidt", "svd"):
         raise MienError(unknown("orthogonalisation", orthogonalise, ("gram-schmidt", "svd")))
@@ -66,8 +66,11 @@ def decode(
     if lost.any():
         codes = np.where(lost[..., None], [1.0, 0.0, 0.0, 0.0, 1.0, 0.0], codes)
     d, n = _nearest(codes) if orthogonalise == "svd" else _gram_schmidt(codes)
-    frame = quaternion.from_matrix(np.stack([d, n, np.cross(d, n)], axis=-1))
     rest = quaternion.from_matrix(np.stack([u, v, np.cross(u, v)], axis=-1))
+    if fallback is None:
+        frame = quaternion.from_matrix(np.stack([d, n, np.cross(d, n)], axis=-1))
+    else:
+        frame = quaternion.from_axes(d, n, np.cross(d, n), near=quaternion.multiply(fallback, rest))
     q = quaternion.multiply(frame, quaternion.conjugate(rest))
     if lost.any():
         q = _hold(q, lost, fallback)
