@@ -80,3 +80,10 @@ def test_moves_with_the_world():
     for a, b in ((upper, upper2), (lower, lower2)):
         expected = quaternion.multiply(quaternion.multiply(turn, a), quaternion.conjugate(turn))
         np.testing.assert_allclose(np.abs(np.einsum("ti,ti->t", expected, b)), 1.0, atol=1e-12)
+
+
+def test_a_bone_without_length_gives_no_nonsense():
+    hip, knee, ankle = leg(0.5, shank=0.0)
+    new_knee, new_ankle = solve(hip, knee, ankle, hip + [0.1, -0.3, 0.0])
+    np.testing.assert_allclose(np.linalg.norm(new_knee - hip, axis=1), 0.45, atol=1e-12)
+    np.testing.assert_allclose(new_ankle, new_knee, atol=1e-12)

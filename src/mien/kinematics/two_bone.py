@@ -19,7 +19,8 @@ def two_bone(root: Array, middle: Array, tip: Array, target: Array, hinge: Array
     """
     upper, lower = _length(middle - root), _length(tip - middle)
     reach = np.clip(_length(target - root), np.abs(upper - lower) * (1 + 1e-9), (upper + lower) * (1 - 1e-12))
-    wanted = np.arccos(np.clip((upper**2 + lower**2 - reach**2) / (2 * upper * lower), -1, 1))
+    sides = np.maximum(2 * upper * lower, 1e-300)  # a bone without length bends nothing
+    wanted = np.arccos(np.clip((upper**2 + lower**2 - reach**2) / sides, -1, 1))
     bend = np.zeros((len(root), 4)) + quaternion.IDENTITY
     for step in range(4):  # the first turn may not be square to the bones: go on from where it led
         here = middle + quaternion.rotate(bend, tip - middle)
