@@ -147,7 +147,7 @@ class Motion:
         """Return a copy with some fields replaced."""
         unknown = set(fields) - set(self.__dataclass_fields__)
         if unknown:
-            raise TypeError(f"a motion has no {', '.join(sorted(unknown))}")
+            raise MienError(f"a motion has no {', '.join(sorted(unknown))}")
         made = copy(self)
         for name, value in fields.items():
             object.__setattr__(made, name, value)

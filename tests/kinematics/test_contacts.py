@@ -17,7 +17,7 @@ def test_steps_begin_and_end_when_they_do(name, fps):
     for foot in range(2):
         a, b = spans(found[:, foot]), spans(true[:, foot])
         assert len(a) == len(b), "every step found, none made up"
-        late = 1.5 + 0.04 * fps  # a frame, and what a foot that has almost landed or left leaves open
+        late = 2.0 + 0.04 * fps  # a shuffling foot is low and slow before it stands
         np.testing.assert_allclose(a, b, atol=late)
 
 

@@ -1,8 +1,8 @@
 """Foot contacts: when which foot stands on the floor, and how far it slides while it stands.
 
 A point of a foot is planted while it is low and slow, with hysteresis so that noise does not make it
-flicker (Förger 2011, section 3.5). Heel (the ankle joint) and toe are judged apart, as a
-step rolls from one to the other.
+flicker (Förger 2011, section 3.5). Heel and toe are judged apart, as a step rolls from one to the
+other.
 """
 
 from dataclasses import dataclass
@@ -10,11 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..motion import Motion
+from ..rotations import quaternion
 from ..typing import Array, Mask
 from .body import Body
 from .fk import end_positions, world
+from .poses import neutral_world
 
 HEIGHT, SPEED = 0.057, 0.35  # leg lengths, leg lengths a second: 5 cm and 0.30 m/s on a 0.87 m leg
+SOLE, BEHIND = 0.08, 0.05  # leg lengths: the heel under and behind the ankle (Winter 2009)
 RELEASE = 1.5  # a planted point is let go at this multiple of the thresholds
 SHORTEST, GAP = 0.08, 0.05  # seconds: a shorter contact is dropped, a shorter gap filled
 
@@ -58,14 +61,19 @@ def detect(motion: Motion, *, body: Body | None = None) -> Contacts:
 def foot_points(motion: Motion, body: Body, rotations: Array, positions: Array) -> Array:
     """Return the heel and toe of both feet (T, 2, 2, 3) in world axes; without a toe it is the heel.
 
-    The heel stands for the ankle joint. The toe is the toe joint, or the end site of the ankle.
+    Skeletons have no heel: it is taken below and behind the ankle, where the sole is in the neutral
+    stance, and moves with the foot. So a foot that rolls over its heel has a point that stands. The
+    toe is the toe joint, or the end site of the ankle.
     """
     ends = end_positions(motion, rotations, positions)
+    stance = neutral_world(motion, body)[0]
     out = np.empty((len(motion), 2, 2, 3))
     for foot, side in enumerate(("left", "right")):
         ankle, toe = body.roles[f"{side}_ankle"], body.roles.get(f"{side}_toe")
         tips = np.flatnonzero(motion.skeleton.end_parents == ankle)
-        out[:, foot, 0] = positions[:, ankle]
+        heel = -SOLE * body.leg_length * body.up - BEHIND * body.leg_length * body.forward
+        arm = quaternion.rotate(quaternion.conjugate(stance[ankle]), heel)
+        out[:, foot, 0] = positions[:, ankle] + quaternion.rotate(rotations[:, ankle], arm)
         if toe is not None:
             out[:, foot, 1] = positions[:, toe]
         else:
