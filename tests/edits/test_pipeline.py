@@ -225,3 +225,9 @@ def test_a_whole_clip_step_equals_the_call(clip: Motion) -> None:
     direct = EDITS["shift"].run(clip, by=0.7)
     assert same(after, direct)
     assert replace(after.history[0]) == Step("shift", {"by": 0.7})
+
+
+@pytest.mark.parametrize("span", [(5.0, 6.0), (-2.0, -1.0), (0.5, 0.5)])
+def test_a_span_that_holds_nothing_of_the_clip_is_refused(clip: Motion, span: tuple[float, float]) -> None:
+    with pytest.raises(RecipeError, match="holds nothing of the clip"):
+        apply(clip, [Step("shift")], span=span)

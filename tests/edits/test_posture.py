@@ -8,6 +8,7 @@ from mien.edits.pipeline import apply
 from mien.edits.posture import posture
 from mien.kinematics.body import Body
 from mien.kinematics.fk import world
+from mien.kinematics.poses import neutral_world
 from mien.motion import Motion
 from mien.recipe import Step
 from mien.rotations import quaternion as quat
@@ -212,3 +213,26 @@ def test_nothing_asked_is_the_motion_itself() -> None:
     for after in (posture(walk), posture(walk, pose="head_down", amount=0.0)):
         np.testing.assert_array_equal(after.rotations, walk.rotations)
         np.testing.assert_array_equal(after.translations, walk.translations)
+
+
+def test_the_head_stops_before_the_neck_is_bent_too_far() -> None:
+    """Heads down already go down less, and no head beyond 50 degrees against the trunk."""
+
+    def bent(motion: Motion) -> float:
+        body = Body.of(motion)
+        rotations = world(motion)[0]
+        stance = quat.conjugate(neutral_world(motion, body)[0])
+        head, chest = (
+            quat.multiply(rotations[:, j], stance[j]) for j in (body.roles["head"], body.spine[-1])
+        )
+        turn = quat.log(quat.multiply(quat.conjugate(chest), head))
+        return float(np.degrees(np.median(turn @ body.left)))
+
+    for motion in (samples.walk().motion, samples.tired_walk().motion):
+        before = bent(motion)
+        for head in (20.0, 40.0, 60.0):
+            after = bent(posture(motion, head=head))
+            assert before < after < 51.0
+    upright, bowed = samples.walk().motion, samples.tired_walk().motion
+    rises = [bent(posture(m, head=30.0)) - bent(m) for m in (upright, bowed)]
+    assert rises[1] < rises[0] <= 30.0

@@ -52,6 +52,11 @@ def apply(
     if not 0.0 <= strength <= 2.0:
         raise RecipeError(f"strength must be from 0 to 2, got {strength:g}")
     steps = [check(s) for s in (recipe.steps if isinstance(recipe, Recipe) else recipe)]
+    if span is not None and not (span[1] >= 0.0 and span[0] <= motion.duration and span[0] < span[1]):
+        raise RecipeError(
+            f"the span from {span[0]:g} to {span[1]:g} s holds nothing of the clip, which lasts "
+            f"{motion.duration:g} s"
+        )
     if strength == 0.0:
         return motion
     for step in steps:

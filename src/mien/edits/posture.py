@@ -28,6 +28,7 @@ FADE_START, FADE_END = 0.6, 1.1  # lengths of the limb that its end is away from
 FADE_CUTOFF = 3.0  # Hz
 # Leg lengths: how near hands may hang to the hip joints, feet to the middle; limbs as levers.
 HAND_ROOM, FOOT_ROOM = 0.05, 0.04
+HEAD_DOWN, HEAD_UP = 50.0, 60.0  # degrees a neck bends forward and back (Youdas et al. 1992)
 LIMB_LENGTH = {"arms": 0.65, "legs": 1.0}
 
 
@@ -74,7 +75,8 @@ def posture(
     ``anatomical`` is the default for what real clips show: with ``additive`` a sharply bent elbow opens
     instead of bending (a punch: by 8 degrees where 25 more were asked), and both other methods turn
     the plane of the elbow (by up to 20 and 37 degrees) and bend straightened elbows backwards. Arms
-    and legs drawn in stop softly before hands reach the hips and feet each other.
+    and legs drawn in stop softly before hands reach the hips and feet each other, and the head before
+    the neck is bent further than necks bend.
     """
     named, captured = named_pose(pose)
     values = {
@@ -91,9 +93,10 @@ def posture(
     if not (hips_height or any(values.values()) or any(map(any, (captured * amount).turns.values()))):
         return motion
     body = Body.of(motion)
-    positions = world(motion)[1]
+    turned, positions = world(motion)
     facing = heading_rotation(positions, body)
-    whole = _pose(_stopped(values, _aside(body, positions, facing))) + captured * amount
+    stopped = _stopped(values, _aside(body, positions, facing), _head_down(motion, body, turned))
+    whole = _pose(stopped) + captured * amount
     weights = _fade_out(motion, body, positions, facing) if fade else {}
     rotations = add_pose(motion, body, whole, weights=weights, method=method)
     translations = motion.translations
@@ -102,18 +105,33 @@ def posture(
     return motion.with_(rotations=rotations, translations=translations)
 
 
-def _stopped(values: Mapping[str, float], aside: Mapping[str, float]) -> dict[str, float]:
-    """Return the values with arms and legs drawn in no further than there is room for.
+def _stopped(values: Mapping[str, float], aside: Mapping[str, float], head_down: float) -> dict[str, float]:
+    """Return the values with head, arms and legs moved no further than there is room for.
 
-    ``aside`` is how far hips, hands and feet usually are from the middle, in leg lengths. The limit is
-    the same for all frames and both sides.
+    ``aside`` is how far hips, hands and feet usually are from the middle, in leg lengths; ``head_down``
+    how far the head is usually bent forward, in degrees. The limit is the same for all frames.
     """
     out = dict(values)
+    way = 1.0 if out["head"] > 0.0 else -1.0
+    room = HEAD_DOWN - head_down if way > 0.0 else HEAD_UP + head_down
+    out["head"] = way * float(soft_stop(np.array(abs(out["head"])), np.array(max(room, 0.0))))
     for name, room in (("arms", aside["arm"] - aside["hip"] - HAND_ROOM), ("legs", aside["leg"] - FOOT_ROOM)):
         if out[name] < 0.0:
             angle = np.degrees(np.arcsin(np.clip(room / LIMB_LENGTH[name], 0.0, 1.0)))
             out[name] = -float(soft_stop(np.array(-out[name]), angle))
     return out
+
+
+def _head_down(motion: Motion, body: Body, turned: Array) -> float:
+    """Return how far the head is bent forward against the trunk, median over the clip, in degrees."""
+    head = body.roles.get("head", body.roles.get("neck"))
+    trunk = body.spine[-1] if body.spine else body.roles["hips"]
+    if head is None:
+        return 0.0
+    stance = quaternion.conjugate(neutral_world(motion, body)[0])
+    above, below = (quaternion.multiply(turned[:, j], stance[j]) for j in (head, trunk))
+    bend = quaternion.log(quaternion.multiply(quaternion.conjugate(below), above)) @ body.left
+    return float(np.degrees(np.median(bend)))
 
 
 def _aside(body: Body, positions: Array, facing: Array) -> dict[str, float]:

@@ -4,7 +4,7 @@ To the motion: frames before and after go; the numbers of those kept are not tou
 at 0 again. To the viewer: the T-pose before a take or the walk-off after it is gone.
 """
 
-from math import ceil, floor
+from math import floor
 from typing import Annotated
 
 from ..errors import MienError
@@ -12,7 +12,7 @@ from ..motion import Motion
 from .registry import Param, edit
 
 
-@edit(kind="time", paper="", equation="frames i with start <= i frame_time <= end")
+@edit(kind="time", paper="", equation="frames round(start fps) to round(end fps)")
 def trim(
     motion: Motion,
     *,
@@ -21,16 +21,21 @@ def trim(
         float | None, Param("last moment kept; none is the end of the clip", 0.0, 1e6, "seconds")
     ] = None,
 ) -> Motion:
-    """Keep the frames from ``start`` to ``end`` (seconds, both included); the rest is dropped.
+    """Keep the frames from the one nearest to ``start`` to the one nearest to ``end``, both included.
 
-    Raises ``MienError`` where no frame lies between them. An ``end`` after the last frame is that frame.
+    The same time twice keeps one frame, a still. An ``end`` after the last frame is that frame. Raises
+    ``MienError`` where ``start`` is after the last frame or after ``end``.
     """
-    slack = 1e-6  # of a frame, so that a time written with few decimals still names its frame
-    first = ceil(start * motion.fps - slack)
-    last = len(motion) - 1 if end is None else min(floor(end * motion.fps + slack), len(motion) - 1)
-    if first > last:
-        raise MienError(
-            f"trim: no frame from {start:g} s to {'the end' if end is None else f'{end:g} s'}: "
-            f"the clip lasts {motion.duration:g} s"
-        )
+    last = len(motion) - 1
+    until = last if end is None else min(_nearest(end, motion), last)
+    first = _nearest(start, motion)
+    if first > last or first > until:
+        what = "after the end of the clip" if first > last else f"after the end at {end:g} s"
+        raise MienError(f"trim: {start:g} s is {what}; the clip lasts {motion.duration:g} s")
+    last = until
     return motion if (first, last) == (0, len(motion) - 1) else motion[first : last + 1]
+
+
+def _nearest(time: float, motion: Motion) -> int:
+    """Return the frame nearest to a time; of two equally near, the later."""
+    return floor(time * motion.fps + 0.5 + 1e-6)
