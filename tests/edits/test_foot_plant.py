@@ -137,3 +137,15 @@ def test_different_frames_are_refused():
     motion = samples.walk().motion
     with pytest.raises(MienError, match="both must be the same"):
         foot_plant(motion, original=motion[:10])
+
+
+@pytest.mark.parametrize("cadence", [0.5, 1.8])
+def test_a_walk_on_the_spot_stays_on_the_spot(cadence):
+    walk = samples.walk(seconds=6.0, cadence=cadence, step_length=0.3, unit="m").motion
+    hips = Body.of(walk).roles["hips"]
+    still = np.array(walk.translations)
+    still[:, hips] -= walk.times[:, None] * np.polyfit(walk.times, still[:, hips], 1)[0]
+    spot = walk.with_(translations=still)
+    out = foot_plant(path_length(spot, mid=0.5), original=spot)
+    moved = world(out)[1][:, hips] - world(spot)[1][:, hips]
+    assert np.abs(moved @ Body.of(spot).forward).max() < 0.02

@@ -20,6 +20,7 @@ from ..errors import MienError
 from ..kinematics.body import Body
 from ..kinematics.contacts import Contacts, detect_points, foot_points
 from ..kinematics.fk import end_positions, world
+from ..kinematics.heading import heading_rotation
 from ..kinematics.poses import neutral_world
 from ..kinematics.two_bone import two_bone
 from ..motion import Motion
@@ -124,10 +125,29 @@ def _hips_shift(before: _Pose, after: _Pose, contacts: Contacts, body: Body, tra
     share = weight / np.where(known, total, 1.0)[:, None, None]
     rate = np.einsum("tfp,tfpi->ti", share, np.gradient(slip, axis=0)) if len(slip) > 1 else np.zeros((1, 3))
     rate = smooth(hold_gaps(rate, known), sigma=0.04 / dt)
-    along = np.cumsum(rate, axis=0) - rate[0] if travel else np.zeros_like(rate)
+    on_belt = _on_belt(before, weight, body)
+    along = np.cumsum(rate, axis=0) - rate[0] if travel and not on_belt else np.zeros_like(rate)
     along -= (along @ body.up)[:, None] * body.up
     rise = np.einsum("tfp,tfpi->ti", share, slip) @ body.up
     return along + smooth(hold_gaps(rise, known), sigma=0.04 / dt)[:, None] * body.up
+
+
+def _on_belt(before: _Pose, weight: Array, body: Body) -> bool:
+    """Say whether the original walks on the spot: planted feet all slide back while the hips stay.
+
+    So it is when planted feet go over the ground at more than 0.1 leg lengths a second on average, seen
+    from the body, and more than three times as fast as the hips.
+    """
+    if len(weight) < 2 or not weight.any():
+        return False
+    back = quaternion.conjugate(heading_rotation(before.positions, body))
+    dt = before.motion.frame_time
+    feet = quaternion.rotate(back[:, None, None], np.gradient(before.feet, dt, axis=0))
+    hips = quaternion.rotate(back, np.gradient(before.positions[:, body.roles["hips"]], dt, axis=0))
+    ground = np.eye(3) - np.outer(body.up, body.up)
+    belt = ground @ (np.einsum("tfp,tfpi->i", weight, feet) / weight.sum())
+    speed = float(np.linalg.norm(belt))
+    return speed > max(0.1 * body.leg_length, 3.0 * float(np.linalg.norm(ground @ hips.mean(axis=0))))
 
 
 def _settled(contacts: Contacts, frame_time: float) -> Array:
