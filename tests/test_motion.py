@@ -6,8 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+import mien
 from mien import samples
 from mien.errors import MienError
+from mien.formats import bvh
+from mien.kinematics.contacts import detect
 from mien.motion import Motion, Skeleton
 from mien.recipe import Step
 
@@ -174,3 +177,29 @@ def test_a_notebook_shows_a_picture() -> None:
     shown = samples.still(seconds=0.5).motion._repr_html_()
     assert "<img" in shown
     assert "base64" in shown
+
+
+def test_what_is_shown_is_one_short_line() -> None:
+    walk = samples.walk(seconds=1.0, fps=30.0)
+    edited = mien.edit(walk.motion, "sad")
+    assert repr(motion(frames=1)) == "Motion(1 frame, 5 joints, 2 fps, 0.00 s)"
+    assert repr(walk.motion) == "Motion('walk', 31 frames, 22 joints, 30 fps, 1.00 s)"
+    assert repr(edited).endswith(f"1.00 s, {len(edited.history)} steps)")
+    assert repr(skeleton()) == "Skeleton(5 joints: hips to right)"
+    shown = [
+        walk,
+        mien.Body.of(walk.motion),
+        detect(walk.motion),
+        mien.compare(walk.motion, edited),
+        walk.motion.skeleton.layout,
+        bvh.parse(bvh.render(walk.motion), "walk").source,
+    ]
+    for thing in shown:
+        assert repr(thing).startswith(type(thing).__name__ + "(")
+        assert len(repr(thing)) < 110
+        assert "array" not in repr(thing)
+        assert "\n" not in repr(thing)
+
+
+def test_the_front_door_shows_what_is_public_and_nothing_else() -> None:
+    assert set(dir(mien)) == set(mien.__all__)

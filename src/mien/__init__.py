@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from . import render as render
     from . import samples as samples
-    from .edits.pipeline import apply as apply
+    from .analysis.compare import before_after as before_after
+    from .analysis.compare import compare as compare
     from .emotion.files import read_recipe as read_recipe
     from .emotion.files import write_recipe as write_recipe
     from .emotion.presets import PRESETS as PRESETS
     from .emotion.presets import preset as preset
+    from .emotion.resolve import apply as apply
     from .emotion.resolve import edit as edit
     from .errors import BodyError as BodyError
     from .errors import FormatError as FormatError
@@ -45,7 +47,9 @@ _HOME = {
     "RecipeError": ".errors",
     "Skeleton": ".motion",
     "Step": ".recipe",
-    "apply": ".edits.pipeline",
+    "apply": ".emotion.resolve",
+    "before_after": ".analysis.compare",
+    "compare": ".analysis.compare",
     "edit": ".emotion.resolve",
     "load": ".formats",
     "preset": ".emotion.presets",
@@ -75,4 +79,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted(__all__)

@@ -7,6 +7,7 @@ the clip's own unit. ``T`` frames, ``J`` joints, ``E`` end sites.
 from collections.abc import Collection, Mapping
 from copy import copy
 from dataclasses import dataclass, field
+from os import PathLike
 from typing import Any, Self
 
 import numpy as np
@@ -50,6 +51,9 @@ class Skeleton:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    def __repr__(self) -> str:
+        return f"Skeleton({_count(len(self), 'joint')}: {self.names[0]} to {self.names[-1]})"
 
     def children(self, joint: int) -> list[int]:
         """Return the indices of the joints that hang directly on ``joint``."""
@@ -110,6 +114,12 @@ class Motion:
     def __len__(self) -> int:
         return len(self.rotations)
 
+    def __repr__(self) -> str:
+        name = f"{self.name!r}, " if self.name else ""
+        size = f"{_count(len(self), 'frame')}, {_count(len(self.skeleton), 'joint')}"
+        steps = f", {_count(len(self.history), 'step')}" if self.history else ""
+        return f"Motion({name}{size}, {self.fps:.6g} fps, {self.duration:.2f} s{steps})"
+
     def _repr_html_(self) -> str:
         """Return a strip of poses for notebooks; the front door knows the room that draws it."""
         import mien
@@ -153,6 +163,20 @@ class Motion:
             object.__setattr__(made, name, value)
         made._check(fields)
         return made
+
+
+def require_motion(value: object) -> Motion:
+    """Return ``value`` if it is a motion; else raise ``MienError`` that says how to get one."""
+    if isinstance(value, Motion):
+        return value
+    if isinstance(value, str | PathLike):
+        raise MienError(f"give a Motion, not a path: mien.load({str(value)!r})")
+    raise MienError(f"give a Motion (mien.load reads one from a file), not {value!r:.60}")
+
+
+def _count(number: int, thing: str) -> str:
+    """Return how many there are of a thing, such as ``1 frame`` or ``3 joints``."""
+    return f"{number} {thing}{'' if number == 1 else 's'}"
 
 
 def _set(owner: object, name: str, shape: tuple[int, ...], dtype: type = np.float64) -> None:

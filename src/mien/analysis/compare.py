@@ -48,6 +48,10 @@ class Comparison:
     centimetres: float
     changes: tuple[Change, ...]
 
+    def __repr__(self) -> str:
+        said = "nothing differs" if self.same else f"turned up to {self.rotation_max.max():.1f} degrees"
+        return f"Comparison({len(self.joints)} joints, {self.aligned}: {said})"
+
     @property
     def same(self) -> bool:
         """Whether nothing moves differently: under a millionth of a degree and of a leg length."""

@@ -1,39 +1,38 @@
 """From what a person says (an emotion word, a file, a recipe, a few steps) to an edited motion."""
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ..edits import pipeline
 from ..errors import RecipeError, unknown
-from ..motion import Motion
-from ..recipe import Recipe, Step
+from ..kinematics.body import PARTS, ROLES
+from ..motion import Motion, require_motion
+from ..recipe import Recipe, Step, read_parts, read_span, require_number
 from . import files
 
-What = str | Path | Recipe | Iterable[Step]
+Steps = Recipe | Step | Iterable[Step]
+What = str | Path | Steps
+Parts = str | Sequence[str]
+Span = str | tuple[float, float] | None
 
 
 def resolve(what: What) -> Recipe:
-    """Return the recipe that is meant: an emotion word, a recipe file, a recipe or a list of steps.
+    """Return the recipe that is meant: an emotion word, a recipe file, a recipe, a step or a list of steps.
 
-    Raises ``RecipeError`` with the nearest emotion word when nothing of that name is known, or when
-    ``what`` is none of these.
+    Upper and lower case of a word do not matter. Raises ``RecipeError`` with the nearest emotion word
+    when nothing of that name is known, or when ``what`` is none of these.
     """
-    if isinstance(what, Recipe):
-        return what
     if isinstance(what, Path) or (isinstance(what, str) and Path(what).suffix.lower() in files.SUFFIXES):
         return files.read_recipe(what)
     if isinstance(what, str):
-        from .presets import PRESETS, preset
+        from .presets import preset
 
-        if what not in PRESETS:
-            raise RecipeError(unknown("emotion", what, PRESETS) + "; or give a recipe file (.toml or .json)")
-        return preset(what)
-    steps = tuple(what) if isinstance(what, Iterable) else (what,)
-    if not all(isinstance(step, Step) for step in steps):
-        raise RecipeError(
-            f"give an emotion word, a recipe file, a Recipe or a list of Steps, not {what!r:.80}"
-        )
-    return Recipe(name="steps", steps=steps)
+        try:
+            return preset(what)
+        except RecipeError as error:
+            raise RecipeError(f"{error}; or give a recipe file (.toml or .json)") from None
+    return _recipe(what, "an emotion word, a recipe file, ")
 
 
 def edit(
@@ -41,14 +40,54 @@ def edit(
     what: What,
     *,
     strength: float = 1.0,
-    parts: str | Sequence[str] = (),
-    span: tuple[float, float] | None = None,
+    parts: Parts = (),
+    span: Span = None,
+    foot_plant: bool = True,
 ) -> Motion:
     """Return ``motion`` edited by an emotion word, a recipe file, a recipe or a list of steps.
 
     ``strength`` from 0 (nothing) over 1 (as written) to 2 multiplies every step's own; ``parts``
-    (``"arms"`` or ``("head", "arms")``) and ``span`` (start and end in seconds) limit what is changed;
-    the feet are put back over the whole clip. Raises ``RecipeError`` for what is unknown or out of range.
+    (``"head,arms"`` or ``("head", "arms")``) and ``span`` (start and end in seconds) limit what is changed;
+    the feet are put back over the whole clip, where the recipe does so; not with ``foot_plant=False``.
+    Raises ``MienError`` for what is no motion, ``RecipeError`` for what is unknown or out of range.
     """
-    chosen = (parts,) if isinstance(parts, str) else tuple(parts)
-    return pipeline.apply(motion, resolve(what), strength=strength, parts=chosen, span=span)
+    require_motion(motion)
+    recipe = resolve(what)
+    if not foot_plant:
+        recipe = replace(recipe, steps=tuple(step for step in recipe.steps if step.edit != "foot_plant"))
+    return apply(motion, recipe, strength=strength, parts=parts, span=span)
+
+
+def apply(
+    motion: Motion, recipe: Steps, *, strength: float = 1.0, parts: Parts = (), span: Span = None
+) -> Motion:
+    """Return ``motion`` after a recipe, a step or a list of steps; one more step of history for each done.
+
+    ``strength``, ``parts``, ``span`` and errors are as in ``edit``. Of steps that edit the pose only what
+    lies within ``parts`` and ``span`` is done; repairs see the whole clip.
+    """
+    require_motion(motion)
+    require_number("strength", strength)
+    limits = _known(read_parts(parts))
+    times = read_span(span)
+    if times and not times[0] < times[1]:
+        raise RecipeError(f"span must end after it starts, got {times}")
+    return pipeline.apply(motion, _recipe(recipe), strength=strength, parts=limits, span=times)
+
+
+def _recipe(steps: Steps, others: str = "") -> Recipe:
+    """Return steps as a recipe; ``others`` names what else might have been given."""
+    if isinstance(steps, Recipe):
+        return steps
+    found = (steps,) if isinstance(steps, Step) or not isinstance(steps, Iterable) else tuple(steps)
+    if isinstance(steps, str) or not all(isinstance(step, Step) for step in found):
+        example = 'mien.Step("posture", {"head": 20})'
+        raise RecipeError(f"give {others}a Recipe or Steps such as {example}, not {steps!r:.80}")
+    return Recipe(name="steps", steps=found)
+
+
+def _known(parts: tuple[str, ...]) -> tuple[str, ...]:
+    for part in parts:
+        if part not in (*PARTS, *ROLES):
+            raise RecipeError(unknown("body part or role", part, [*PARTS, *ROLES]))
+    return parts

@@ -28,6 +28,10 @@ class BvhSource:
     rotations: Array
     translations: Array
 
+    def __repr__(self) -> str:
+        frames, width = self.values.shape
+        return f"BvhSource({frames} frames, {width} channels)"
+
 
 @dataclass(frozen=True)
 class _Turns:

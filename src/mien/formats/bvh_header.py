@@ -45,6 +45,9 @@ class BvhLayout:
     decimals: int = 6
     whole: bool = True
 
+    def __repr__(self) -> str:
+        return f"BvhLayout({len(self.skeleton)} joints, {self.width} channels, {self.decimals} decimals)"
+
     @property
     def width(self) -> int:
         """How many numbers a frame has."""

@@ -55,6 +55,11 @@ class Body:
     neutral: Array
     parts_of: tuple[str, ...]
 
+    def __repr__(self) -> str:
+        metres = self.metres_per_unit
+        size = f"{self.height * metres:.2f} m tall, legs {self.leg_length * metres:.2f} m"
+        return f"Body({len(self.roles)} roles, {size}, {metres:g} m a unit)"
+
     @classmethod
     def of(cls, motion: Motion, *, map: Mapping[str, str] | None = None) -> Self:
         """Find the body in ``motion``; ``map`` (role -> joint name) overrides what would be found.

@@ -28,6 +28,10 @@ class Contacts:
 
     points: Mask
 
+    def __repr__(self) -> str:
+        left, right = (len(self.spans(foot)) for foot in range(2))
+        return f"Contacts({len(self.points)} frames: {left} of the left foot, {right} of the right)"
+
     @property
     def feet(self) -> Mask:
         """Whether each foot stands on anything (T, 2)."""

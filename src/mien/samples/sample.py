@@ -55,6 +55,9 @@ class Sample:
     leg_length: float
     metres_per_unit: float
 
+    def __repr__(self) -> str:
+        return f"Sample({self.motion!r}, {len(self.angles)} angles, {len(self.facts)} facts)"
+
 
 @dataclass(frozen=True, eq=False)
 class Truth:
