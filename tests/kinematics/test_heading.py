@@ -49,3 +49,22 @@ def test_a_chain_is_the_same_as_the_whole():
     assert len(joints) < len(clip.skeleton)
     np.testing.assert_allclose(rotations, whole_rotations[:, joints], atol=1e-14)
     np.testing.assert_allclose(positions, whole_positions[:, joints], atol=1e-12)
+
+
+def test_a_jerk_of_the_hips_is_no_turn_but_a_turn_is():
+    clip = turn(seconds=4.0, fps=60.0).motion
+    body = Body.of(clip)
+    hips = body.roles["hips"]
+    jerked = np.array(clip.rotations)
+    jerked[120, hips] = quaternion.multiply(quaternion.exp(0.2 * body.up), jerked[120, hips])
+    shaken = clip.with_(rotations=jerked)
+    plain, steady = (hips_frame(shaken, body, steady=s) for s in (False, True))
+    was = hips_frame(clip, body)
+
+    def apart(a, b):
+        return np.abs(quaternion.log(quaternion.multiply(quaternion.conjugate(a), b)) @ body.up)
+
+    assert apart(plain, was)[120] > 0.19
+    assert apart(steady, was)[120] < 0.03
+    assert apart(steady, was).max() < 0.1, "the turn itself stays in the heading"
+    assert apart(steady[:1], steady[-1:])[0] > 1.0

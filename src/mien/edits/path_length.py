@@ -78,7 +78,7 @@ def path_length(
     body = Body.of(motion)
     hips = body.roles["hips"]
     below = motion.skeleton.descendants(hips)
-    rotations, frame = heading_free(motion, body)
+    rotations, frame = heading_free(motion, body, steady=True)
     frames = period(rotations[:, below], boundary)
     change = _filter(mode, motion.fps, (low, mid, high), (edge_low, edge_high), frames > 0)
     u, v = directions.axes(main_bones(motion.skeleton))

@@ -204,6 +204,6 @@ def _shift_hips(motion: Motion, body: Body, lean: float, height: float) -> Array
     angle = radians(lean)
     shift = sin(angle) * body.forward + (cos(angle) - 1.0 + height) * body.up
     translations = np.array(motion.translations)
-    inner = quaternion.rotate(hips_frame(motion, body), body.leg_length * shift)
+    inner = quaternion.rotate(hips_frame(motion, body, steady=True), body.leg_length * shift)
     translations[:, body.roles["hips"]] += inner
     return translations

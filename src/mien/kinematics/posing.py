@@ -59,7 +59,7 @@ def add_pose(
 def _above(motion: Motion, body: Body, stance: Array, segment: str, joint: int, method: Method) -> Array:
     """Return the rotations, (4,) or (T, 4), from the frame that a joint's turn is told in to its parent's."""
     if segment == "hips":
-        return quaternion.conjugate(hips_frame(motion, body))
+        return quaternion.conjugate(hips_frame(motion, body, steady=True))
     parent = int(motion.skeleton.parents[joint])
     between, chest = [], parent
     while method == "anatomical" and segment.endswith("_shoulder") and chest not in (*body.spine[-1:], -1):
