@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import re
 import signal
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -11,13 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from .edits import pipeline
-from .emotion.files import format_recipe
-from .errors import MienError, sentence
+from .emotion.files import format_recipe, read_provenance, sidecar_of
+from .errors import FormatError, MienError, RecipeError, sentence
 from .formats import files, load, save
+from .kinematics.roles import known_roles
 from .motion import Motion
 from .recipe import Recipe
-
-SIDECAR = ".recipe.toml"
 
 
 @dataclass(frozen=True)
@@ -38,12 +38,16 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a job: frames, seconds and steps done, or the sentence that says what went wrong."""
+    """What became of a job: frames, seconds and steps done, or the sentence that says what went wrong.
+
+    ``notes`` say what makes the result doubtful.
+    """
 
     job: Job
     frames: int = 0
     duration: float = 0.0
     steps: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     error: str = ""
     unexpected: bool = False
 
@@ -63,35 +67,50 @@ def edit_files(jobs: Sequence[Job], *, workers: int = 1) -> Iterator[Outcome]:
 def edit_file(job: Job) -> Outcome:
     """Read, edit and write one file."""
     try:
-        motion = edited(job)
+        before, motion = edited(job)
         job.target.parent.mkdir(parents=True, exist_ok=True)
         save(motion, job.target, force=job.force)
         if job.sidecar:
             files.write(sidecar_of(job.target), provenance(job, motion).encode())
+        notes = doubts(job, before)
     except (MienError, OSError, MemoryError) as error:
         return Outcome(job, error=sentence(error))
     except Exception as error:
         if os.environ.get("MIEN_DEBUG"):
             raise
         return Outcome(job, error=sentence(error), unexpected=True)
-    return Outcome(job, len(motion), motion.duration, tuple(step.edit for step in motion.history))
+    return Outcome(job, len(motion), motion.duration, tuple(step.edit for step in motion.history), notes)
 
 
-def edited(job: Job) -> Motion:
-    """Return the edited motion of a job, without writing it."""
+def edited(job: Job) -> tuple[Motion, Motion]:
+    """Return the motion of a job as it is read and as it is edited, without writing it."""
     motion = opened(job.source, body=job.body, **job.read)
-    return pipeline.apply(motion, job.recipe, strength=job.strength, parts=job.parts, span=job.span)
+    after = pipeline.apply(motion, job.recipe, strength=job.strength, parts=job.parts, span=job.span)
+    return motion, after
+
+
+def doubts(job: Job, motion: Motion) -> tuple[str, ...]:
+    """Return what makes the result of a job doubtful: damage cut away, an odd rate, hips that jump."""
+    from .analysis.inspect import doubts as odd
+
+    return (*_damage(job, motion), *odd(motion))
+
+
+def _damage(job: Job, motion: Motion) -> list[str]:
+    if not job.read.get("salvage"):
+        return []
+    try:
+        load(job.source, fps=job.read.get("fps"))
+    except FormatError as error:
+        wrong = re.sub(r" \(use --salvage[^)]*\)", "", str(error))
+        return [f"salvaged {len(motion)} frames of a damaged clip: {wrong}"]
+    return []
 
 
 def opened(path: Path, *, body: Mapping[str, str], fps: float | None = None, salvage: bool = False) -> Motion:
     """Return the motion of a file, with the roles of a map file kept in its skeleton."""
     motion = load(path, fps=fps, salvage=salvage)
     return motion.with_(skeleton=replace(motion.skeleton, roles=body)) if body else motion
-
-
-def sidecar_of(target: Path) -> Path:
-    """Return the file that says how ``target`` was made; it is a recipe, and replays to the same clip."""
-    return target.with_name(target.name + SIDECAR)
 
 
 def provenance(job: Job, motion: Motion) -> str:
@@ -106,6 +125,20 @@ def provenance(job: Job, motion: Motion) -> str:
     about |= {"roles": dict(job.body)} if job.body else {}
     recipe = Recipe(job.recipe.name, motion.history, job.recipe.description)
     return format_recipe(recipe, provenance=about)
+
+
+def how_it_was_read(sidecar: Path) -> tuple[dict[str, Any], dict[str, str]]:
+    """Return the options of ``load`` and the roles that a clip was read with, from the file beside it.
+
+    Both are empty for a recipe that came from no clip. Raises ``MienError`` for values that do not fit.
+    """
+    about = read_provenance(sidecar)
+    fps, salvage, roles = about.get("fps"), about.get("salvage", False), about.get("roles", {})
+    if isinstance(fps, bool) or not isinstance(fps, int | float | None):
+        raise RecipeError(f"{sidecar}: provenance.fps must be a number, got {fps!r}")
+    if not isinstance(salvage, bool):
+        raise RecipeError(f"{sidecar}: provenance.salvage must be true or false, got {salvage!r}")
+    return {"fps": fps, "salvage": salvage}, known_roles(roles, f"{sidecar}: provenance.roles")
 
 
 def _leave_interrupts_to_parent() -> None:

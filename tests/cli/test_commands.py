@@ -42,7 +42,7 @@ def test_diff_of_a_clip_with_itself(folder: Path, run: Run) -> None:
 def test_diff_names_the_joints_that_changed(folder: Path, run: Run) -> None:
     run("edit", "walk.bvh", "--posture-head", 20, "--no-foot-plant", "-o", "low.bvh")
     shown = run("diff", "walk.bvh", "low.bvh").stdout
-    assert re.search(r"^head down, degrees +\S+ +\S+ +\+20\.0$", shown, re.MULTILINE)
+    assert re.search(r"^head down, against the floor, degrees +\S+ +\S+ +\+20\.0$", shown, re.MULTILINE)
     assert re.search(r"^Head \*", shown, re.MULTILINE)
     assert "LeftLeg" not in shown
     assert "LeftLeg" in run("diff", "walk.bvh", "low.bvh", "--all").stdout
@@ -87,9 +87,14 @@ def test_presets_are_listed_and_printed_as_files(folder: Path, run: Run) -> None
 def test_demo_edits_a_walk_and_shows_it(folder: Path, run: Run) -> None:
     result = run("demo")
     assert result.exit_code == 0
-    assert re.search(r"^head down, degrees", result.stdout, re.MULTILINE)
+    assert re.search(r"^head down, against the floor, degrees", result.stdout, re.MULTILINE)
     out = Path("mien-demo")
-    assert {p.name for p in out.iterdir()} == {"walk.bvh", "walk_sad.bvh", "walk_sad.png"}
+    assert {p.name for p in out.iterdir()} == {
+        "walk.bvh",
+        "walk_sad.bvh",
+        "walk_sad.bvh.recipe.toml",
+        "walk_sad.png",
+    }
     before, after = mien.load(out / "walk.bvh"), mien.load(out / "walk_sad.bvh")
     assert before.skeleton.names == after.skeleton.names
     assert run("demo").exit_code == 2, "nothing is overwritten unasked"
@@ -118,5 +123,5 @@ def test_version_and_help(run: Run) -> None:
     assert run("--version").stdout == f"mien {mien.__version__}\n"
     shown = run("-h").stdout
     for command in ("demo", "info", "edit", "presets", "diff", "render", "pose", "doctor"):
-        assert re.search(rf"^│ {command} ", shown, re.MULTILINE)
+        assert re.search(rf"^  {command} ", shown, re.MULTILINE)
         assert run(command, "--help").exit_code == 0

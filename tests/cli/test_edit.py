@@ -37,12 +37,13 @@ def test_an_emotion_is_written_beside_the_clip(folder: Path, run: Run) -> None:
 def test_the_sidecar_says_what_was_done_and_replays_to_the_same_bytes(folder: Path, run: Run) -> None:
     flags = ["--strength", 0.7, "--parts", "arms,head", "--span", "0.2,1.1", "--posture-head", 12]
     assert run("edit", "walk.bvh", "-e", "sad", *flags).exit_code == 0
-    sidecar = Path("walk_sad.bvh.recipe.toml")
+    made = Path("walk_sad_0.7_arms-head_0.2-1.1s.bvh")
+    sidecar = made.with_name(f"{made.name}.recipe.toml")
     about = tomllib.loads(sidecar.read_text())["provenance"]
     assert about == {
         "input": "walk.bvh",
         "input_sha256": hashlib.sha256(Path("walk.bvh").read_bytes()).hexdigest(),
-        "output": "walk_sad.bvh",
+        "output": made.name,
         "mien": mien.__version__,
     }
     recipe = read_recipe(sidecar)
@@ -50,7 +51,7 @@ def test_the_sidecar_says_what_was_done_and_replays_to_the_same_bytes(folder: Pa
     assert posture.parameters["head"] == 12
     assert (posture.strength, posture.parts, posture.span) == (0.7, ("arms", "head"), (0.2, 1.1))
     assert run("edit", "walk.bvh", "--recipe", sidecar, "-o", "again.bvh").exit_code == 0
-    assert Path("again.bvh").read_bytes() == Path("walk_sad.bvh").read_bytes()
+    assert Path("again.bvh").read_bytes() == made.read_bytes()
 
 
 def test_flags_of_edits_make_a_clip_of_their_own(folder: Path, run: Run) -> None:
@@ -116,8 +117,8 @@ def test_json_has_one_entry_a_clip(folder: Path, run: Run) -> None:
 
 def test_strength_zero_gives_the_clip_back(folder: Path, run: Run) -> None:
     assert run("edit", "walk.bvh", "-e", "angry", "--strength", 0).exit_code == 0
-    assert Path("walk_angry.bvh").read_bytes() == Path("walk.bvh").read_bytes()
-    assert read_recipe("walk_angry.bvh.recipe.toml").steps == ()
+    assert Path("walk_angry_0.bvh").read_bytes() == Path("walk.bvh").read_bytes()
+    assert read_recipe("walk_angry_0.bvh.recipe.toml").steps == ()
 
 
 def test_the_rate_in_the_header_can_be_overridden(folder: Path, run: Run) -> None:
@@ -149,7 +150,7 @@ def test_an_existing_output_is_refused_and_force_replaces_it(folder: Path, run: 
     Path("walk_sad.bvh").write_text("mine")
     result = run("edit", "walk.bvh", "-e", "sad")
     assert result.exit_code == 2
-    assert result.stderr.startswith("mien: walk_sad.bvh exists already; use --force")
+    assert result.stderr.startswith("mien: walk_sad.bvh exists already: give another name, or allow")
     assert Path("walk_sad.bvh").read_text() == "mine"
     assert run("edit", "walk.bvh", "-e", "sad", "--force").exit_code == 0
     assert len(mien.load("walk_sad.bvh")) == 46

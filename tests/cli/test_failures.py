@@ -12,6 +12,9 @@ from pathlib import Path
 import pytest
 from typer.testing import Result
 
+from mien.batch import Job, edit_files
+from mien.emotion.presets import preset
+
 Run = Callable[..., Result]
 Process = Callable[..., "subprocess.CompletedProcess[str]"]
 
@@ -19,7 +22,7 @@ BAD_USAGE = {
     "nothing to do": (["edit", "walk.bvh"], "say what to change"),
     "unknown emotion": (["edit", "walk.bvh", "-e", "sda"], "did you mean 'sad'?"),
     "two sources": (["edit", "walk.bvh", "-e", "sad", "-r", "x.toml"], "not both"),
-    "missing recipe": (["edit", "walk.bvh", "-r", "x.toml"], "x.toml: cannot be read"),
+    "missing recipe": (["edit", "walk.bvh", "-r", "x.toml"], "x.toml: there is no such file"),
     "unknown flag": (["edit", "walk.bvh", "--posture-hed", "3"], "--posture-head"),
     "no number": (["edit", "walk.bvh", "--posture-head", "low"], "--posture-head"),
     "out of range": (["edit", "walk.bvh", "--posture-head", "999"], "degrees, got 999"),
@@ -83,13 +86,21 @@ def test_rubbish_is_refused_without_a_traceback(folder: Path, run: Run, case: st
     assert not Path("bad_sad.bvh").exists()
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_a_folder_that_is_a_file_is_told_for_each_clip(folder: Path, run: Run, jobs: int) -> None:
+@pytest.mark.parametrize("out", ["out", "out/sad.bvh", "out/deeper/sad.bvh"])
+def test_a_folder_that_is_a_file(folder: Path, run: Run, out: str) -> None:
     Path("out").write_text("mine")
-    result = run("edit", "*.bvh", "-e", "sad", "-o", "out", "-j", jobs)
-    assert result.exit_code == 2
-    assert "walk.bvh: out: " in result.stderr
-    assert "error in mien itself" not in result.stderr
+    result = run("edit", "walk.bvh", "-e", "sad", "-o", out)
+    assert (result.exit_code, result.stderr) == (2, "mien: out is a file, not a folder\n")
+    assert Path("out").read_text() == "mine"
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_folder_that_turns_out_to_be_a_file_is_told_for_each_clip(folder: Path, jobs: int) -> None:
+    Path("out").write_text("mine")
+    targets = {Path(name): Path("out") / name for name in ("walk.bvh", "brisk.bvh")}
+    todo = [Job(source, target, preset("sad")) for source, target in targets.items()]
+    done = list(edit_files(todo, workers=jobs))
+    assert all(outcome.error.startswith("out: ") and not outcome.unexpected for outcome in done)
     assert Path("out").read_text() == "mine"
 
 

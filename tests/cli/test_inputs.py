@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from mien.cli.inputs import Input, expand, outputs
+from mien.cli.inputs import Input, expand, label, outputs, passed_over, refuse_existing
 from mien.errors import FormatError, MienError
 
 
@@ -39,7 +39,7 @@ def test_a_file_with_brackets_in_its_name_is_meant_literally(tree: Path) -> None
 @pytest.mark.parametrize(
     ("pattern", "words"),
     [
-        ("bb.bvh", ["bb.bvh: no such file", "did you mean b.bvh"]),
+        ("bb.bvh", ["bb.bvh: there is no such file", "did you mean b.bvh"]),
         ("nowhere/a.bvh", ["no such file", "no folder nowhere"]),
         ("*.fbx", ["no file matches"]),
         ("empty", ["no clip in this folder"]),
@@ -58,9 +58,9 @@ def clip(path: str, below: str = "") -> Input:
 def test_outputs_beside_in_a_folder_and_as_a_file(tree: Path) -> None:
     two = [clip("b.bvh"), clip("deep/er/c.bvh", "er")]
     assert outputs(two, None, label="sad") == [Path("b_sad.bvh"), Path("deep/er/c_sad.bvh")]
-    assert outputs(two, Path("out"), label="s0/sad") == [
-        Path("out/b_s0-sad.bvh"),
-        Path("out/er/c_s0-sad.bvh"),
+    assert outputs(two, Path("out"), label="sad") == [
+        Path("out/b_sad.bvh"),
+        Path("out/er/c_sad.bvh"),
     ]
     assert outputs(two[:1], Path("new.bvh"), label="sad") == [Path("new.bvh")]
     assert outputs(two[:1], None, label="strip", suffix=".png") == [Path("b_strip.png")]
@@ -68,14 +68,42 @@ def test_outputs_beside_in_a_folder_and_as_a_file(tree: Path) -> None:
 
 def test_outputs_that_clash_are_refused_even_by_force(tree: Path) -> None:
     with pytest.raises(MienError, match=r"deep/a\.bvh and \S*a\.bvh would both be written to out/a_sad\.bvh"):
-        outputs([clip("deep/a.bvh"), clip("a.bvh")], Path("out"), label="sad", force=True)
+        outputs([clip("deep/a.bvh"), clip("a.bvh")], Path("out"), label="sad")
     with pytest.raises(MienError, match="one file, but there are 2 clips"):
-        outputs([clip("b.bvh"), clip("odd1.bvh")], Path("new.bvh"), label="sad", force=True)
+        outputs([clip("b.bvh"), clip("odd1.bvh")], Path("new.bvh"), label="sad")
     with pytest.raises(MienError, match="is another input"):
-        outputs([clip("b.bvh"), clip("b_sad.bvh")], None, label="sad", force=True)
+        outputs([clip("b.bvh"), clip("b_sad.bvh")], None, label="sad")
 
 
-def test_existing_files_need_force(tree: Path) -> None:
-    with pytest.raises(MienError, match=r"b\.bvh exists already; use --force"):
-        outputs([clip("b.bvh")], Path("b.bvh"), label="sad")
-    assert outputs([clip("b.bvh")], Path("b.bvh"), label="sad", force=True) == [Path("b.bvh")]
+def test_clips_that_clash_are_to_be_done_apart(tree: Path) -> None:
+    with pytest.raises(MienError, match="render them apart"):
+        outputs([clip("deep/a.bvh"), clip("a.bvh")], Path("out"), label="strip", doing="render")
+
+
+def test_existing_files_are_named(tree: Path) -> None:
+    refuse_existing([Path("new.bvh")])
+    with pytest.raises(MienError, match=r"^b\.bvh \(and 1 more\) exists already: .*--force.*force=True"):
+        refuse_existing([Path("new.bvh"), Path("b.bvh"), Path("odd1.bvh")])
+
+
+def test_a_name_says_what_was_asked_for_and_is_safe() -> None:
+    assert label("sad", 1.0, (), None) == "sad"
+    assert label("s0/sad", 0.5, ("arms", "head"), (1.0, 3.5)) == "s0-sad_0.5_arms-head_1-3.5s"
+    assert label("worn out", 1.0, ("left_arm",), None) == "worn-out_left_arm"
+    assert label('../a\\b:c*"?<>|', 1.0, (), None) == "a-b-c"
+    assert label("müde", 1.0, (), None) == "müde"
+    assert label("..", 1.0, (), None) == "edited"
+
+
+def test_clips_that_mien_made_are_passed_over_in_a_folder_only(
+    tree: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def made(path: Path) -> bool:
+        return path.name == "a.bvh"
+
+    assert [c.path.as_posix() for c in passed_over(expand(["deep"]), made)] == ["deep/er/c.bvh"]
+    assert "passed over 1 clip that mien made" in capsys.readouterr().err
+    assert len(passed_over(expand(["deep/a.bvh", "deep/*.bvh"]), made)) == 1
+    assert capsys.readouterr().err == ""
+    with pytest.raises(FormatError, match="nothing but 2 clips that mien made"):
+        passed_over(expand(["deep"]), lambda path: True)

@@ -7,7 +7,8 @@ from typing import Annotated
 import numpy as np
 import pytest
 
-from mien.edits.pipeline import apply, check
+from mien import samples
+from mien.edits.pipeline import apply, check, plan
 from mien.edits.registry import EDITS, Param, edit
 from mien.errors import RecipeError
 from mien.motion import Motion, Skeleton
@@ -231,3 +232,19 @@ def test_a_whole_clip_step_equals_the_call(clip: Motion) -> None:
 def test_a_span_that_holds_nothing_of_the_clip_is_refused(clip: Motion, span: tuple[float, float]) -> None:
     with pytest.raises(RecipeError, match="holds nothing of the clip"):
         apply(clip, [Step("shift")], span=span)
+
+
+def test_a_plan_is_the_history_that_apply_leaves() -> None:
+    walk = samples.walk(seconds=1.0, fps=30.0).motion
+    steps = [
+        Step("posture", {"head": 20.0}, strength=0.5, parts=("upper",), span=(0.0, 0.6)),
+        Step("posture", {"trunk": 5.0}, parts=("legs",)),
+        Step("path_length", {"mid": 0.5}, strength=0.0),
+        Step("foot_plant"),
+    ]
+    limits = {"strength": 1.5, "parts": ("arms", "head"), "span": (0.2, 0.9)}
+    planned = plan(steps, **limits)
+    assert [step.edit for step in planned] == ["posture", "foot_plant"]
+    assert (planned[0].strength, planned[0].span) == (0.75, (0.2, 0.6))
+    assert tuple(planned) == apply(walk, steps, **limits).history
+    assert plan(steps, strength=0.0) == []

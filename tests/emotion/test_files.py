@@ -194,7 +194,7 @@ def test_hostile_json_is_refused(content: str) -> None:
 
 
 def test_missing_folder_and_binary_files(tmp_path: Path) -> None:
-    with pytest.raises(RecipeError, match=r"none\.toml: cannot be read: No such file"):
+    with pytest.raises(RecipeError, match=r"none\.toml: there is no such file"):
         read_recipe(tmp_path / "none.toml")
     with pytest.raises(RecipeError, match="cannot be read"):
         read_recipe(tmp_path)

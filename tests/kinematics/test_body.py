@@ -335,7 +335,7 @@ def test_a_bad_map_file_says_what_is_wrong(tmp_path: Any, text: str, message: st
 
 
 def test_a_map_file_that_is_not_there() -> None:
-    with pytest.raises(BodyError, match="cannot read the map file"):
+    with pytest.raises(BodyError, match="there is no such file"):
         read_map("no/such/body.toml")
 
 

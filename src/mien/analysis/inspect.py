@@ -29,7 +29,12 @@ def notes(motion: Motion) -> list[str]:
     """
     if len(motion) == 1:
         return ["there is one frame only: a pose, not a motion"]
-    return [*_movement(motion), *_start(motion), *_steps(motion)]
+    return [*_movement(motion), *_start(motion), *doubts(motion)]
+
+
+def doubts(motion: Motion) -> list[str]:
+    """Return those of the ``notes`` that make an edit of the clip doubtful: hips that jump, an odd rate."""
+    return _steps(motion) if len(motion) > 1 else []
 
 
 def _movement(motion: Motion) -> list[str]:

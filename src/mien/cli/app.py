@@ -9,9 +9,10 @@ from typer.core import TyperGroup
 
 from ..errors import MienError, sentence
 from . import commands
+from .help import Command
 from .report import complain
 
-HELP = {"help_option_names": ["-h", "--help"]}
+HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 120}
 
 
 class Commands(TyperGroup):
@@ -24,6 +25,14 @@ class Commands(TyperGroup):
             command = typer.main.get_command(_with_edit_flags())
             command.name = name
         return name, command, rest
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the commands, each with the whole first paragraph of its help."""
+        commands = [(name, self.get_command(ctx, name)) for name in self.list_commands(ctx)]
+        with formatter.section("Commands"):
+            formatter.write_dl(
+                [(name, (found.help or "").split("\n\n")[0]) for name, found in commands if found]
+            )
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command."""
@@ -51,8 +60,8 @@ def _with_edit_flags() -> typer.Typer:
     from .edit import edit
     from .flags import with_flags
 
-    alone = typer.Typer(add_completion=False, context_settings=HELP)
-    alone.command()(with_flags(edit))
+    alone = typer.Typer(add_completion=False, context_settings=HELP, rich_markup_mode=None)
+    alone.command(cls=Command)(with_flags(edit))
     return alone
 
 
@@ -61,6 +70,7 @@ app = typer.Typer(
     cls=Commands,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # its tables cut the names of options
     context_settings=HELP,
     help="Change what a captured human motion expresses: same skeleton, feet on the floor.",
     epilog="Start with: mien demo. Then: mien edit walk.bvh --emotion sad",
@@ -85,7 +95,7 @@ def options(
 
 
 for _command in commands.ALL:
-    app.command()(_command)
+    app.command(cls=Command)(_command)
 
 
 def run() -> None:

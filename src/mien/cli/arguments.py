@@ -26,14 +26,22 @@ MapFile = Annotated[
 
 
 def opened(path: Path, fps: float | None, salvage: bool, map_file: Path | None) -> "Motion":
-    """Return the motion of a clip, read as the options say."""
+    """Return the motion of a clip, read as the options say; errors begin with the path as it was given."""
     from ..batch import opened as read
+    from ..errors import FormatError, MienError
+    from .inputs import existing
+    from .report import located
 
-    return read(path, body=read_map(map_file), fps=fps, salvage=salvage)
+    body = read_map(map_file)
+    try:
+        return read(existing(path), body=body, fps=fps, salvage=salvage)
+    except MienError as error:
+        raise FormatError(located(path, str(error))) from None
 
 
 def read_map(path: Path | None) -> dict[str, str]:
     """Return the roles of a map file; none without one."""
     from ..kinematics.roles import read_map as read
+    from .inputs import existing
 
-    return read(path) if path else {}
+    return read(existing(path)) if path else {}

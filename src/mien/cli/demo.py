@@ -22,30 +22,35 @@ def demo(
 
     from .. import samples
     from ..analysis.compare import before_after
-    from ..emotion.resolve import edit
-    from ..formats import save
+    from ..batch import Job, edited, provenance
+    from ..emotion.files import sidecar_of
+    from ..emotion.resolve import resolve
+    from ..formats import files, save
     from ..render import strip
-    from .inputs import refuse_existing
+    from .inputs import label, refuse_existing
     from .render import save_picture
 
-    label = emotion.replace("/", "-")
-    clip, edited, picture = (out / name for name in ("walk.bvh", f"walk_{label}.bvh", f"walk_{label}.png"))
-    walk = samples.walk().motion
-    after = edit(walk, emotion, strength=strength)
+    recipe = resolve(emotion)
+    name = label(recipe.name, strength, (), None)
+    clip, target, picture = (out / file for file in ("walk.bvh", f"walk_{name}.bvh", f"walk_{name}.png"))
+    files.check_folder(out)
     if not force:
-        refuse_existing((edited, picture))
+        refuse_existing((target, picture))
     out.mkdir(parents=True, exist_ok=True)
-    save(walk, clip, force=True)
-    save(after, edited, force=True)
+    save(samples.walk().motion, clip, force=True)
+    job = Job(clip, target, recipe, strength=strength)
+    walk, after = edited(job)
+    save(after, target, force=True)
+    files.write(sidecar_of(target), provenance(job, after).encode())
     save_picture(strip(after, against=walk, title=f"walk: {emotion} (ghost: before)"), picture)
     changes = before_after(walk, after)
     if as_json:
         show_json(
-            {"files": [str(f) for f in (clip, edited, picture)], "measures": [asdict(c) for c in changes]}
+            {"files": [str(f) for f in (clip, target, picture)], "measures": [asdict(c) for c in changes]}
         )
         return
     show_changes(changes)
-    typer.echo(f"\nbefore   {clip}\nafter    {edited}\npicture  {picture}")
+    typer.echo(f"\nbefore   {clip}\nafter    {target}\npicture  {picture}")
     typer.echo(
         f"\nNow yours: mien edit your_clip.bvh --emotion {emotion}   (mien presets lists the emotions)"
     )

@@ -10,7 +10,7 @@ from . import arguments as a
 from .report import show_json, show_table
 
 NEEDED = ("numpy", "scipy", "typer", "rich", "pillow", "tomli-w")
-OPTIONAL = {"av": ("MP4 films", "video")}
+OPTIONAL = {"av": "MP4 films"}
 
 
 @dataclass(frozen=True)
@@ -45,9 +45,9 @@ def _versions() -> list[Finding]:
 
 def _extras() -> list[Finding]:
     found = []
-    for package, (use, extra) in OPTIONAL.items():
+    for package, use in OPTIONAL.items():
         version = _version(package)
-        advice = "" if version else f"for {use}: pip install 'mien[{extra}]'"
+        advice = "" if version else f"for {use}: pip install {package}"
         found.append(Finding(f"{package} (optional)", version or "not installed", True, advice))
     return found
 

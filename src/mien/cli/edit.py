@@ -9,14 +9,15 @@ import typer
 
 from ..errors import MienError
 from . import arguments as a
-from .report import complain, note, progress, show_json
+from .report import complain, located, note, progress, show_json
 
 if TYPE_CHECKING:
     from ..batch import Job, Outcome
-    from ..recipe import Recipe
+    from ..recipe import Recipe, Step
 
 Emotion = Annotated[
-    str | None, typer.Option("--emotion", "-e", help="An emotion word; `mien presets` lists them.")
+    list[str] | None,
+    typer.Option("--emotion", "-e", metavar="WORD", help="An emotion word; mien presets lists them."),
 ]
 RecipeFile = Annotated[
     Path | None, typer.Option("--recipe", "-r", help="A recipe file (.toml or .json), or a clip's sidecar.")
@@ -28,6 +29,9 @@ Parts = Annotated[
     str, typer.Option(help="Only these body parts, e.g. arms,head (or roles such as left_wrist).")
 ]
 Span = Annotated[str, typer.Option(help="Only from one time to another, in seconds, e.g. 1.0,3.5.")]
+Ease = Annotated[
+    float | None, typer.Option(help="Seconds that the ends of --span take to set in (0.25 without it).")
+]
 FootPlant = Annotated[
     bool | None,
     typer.Option(
@@ -39,6 +43,10 @@ Sidecar = Annotated[
     bool,
     typer.Option("--sidecar/--no-sidecar", help="Write what was done beside each clip (OUTPUT.recipe.toml)."),
 ]
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", "-o", help="The file, or the folder, to write to; - is stdout, for one clip."),
+]
 Jobs = Annotated[int, typer.Option("--jobs", "-j", help="Processes to share the clips; 0 takes every core.")]
 
 
@@ -49,8 +57,9 @@ def edit(
     strength: Strength = 1.0,
     parts: Parts = "",
     span: Span = "",
+    ease: Ease = None,
     foot_plant: FootPlant = None,
-    out: a.Out = None,
+    out: Out = None,
     force: a.Force = False,
     dry_run: a.DryRun = False,
     as_json: a.Json = False,
@@ -65,48 +74,103 @@ def edit(
     """Change what clips express: by an emotion, a recipe, or any edit's own flags.
 
     Writes CLIP_EMOTION.bvh beside each clip (or where -o says) with the same skeleton, channels and
-    frame rate, and says in CLIP_EMOTION.bvh.recipe.toml how it was made.
+    frame rate, and says in CLIP_EMOTION.bvh.recipe.toml how it was made. Strength, parts and span
+    become part of the name. In a folder, what mien made is passed over.
+
+    A flag of an edit changes every step of that edit in the emotion or recipe, or adds a step.
 
     mien edit walk.bvh --emotion sad --strength 0.8
 
     mien edit "takes/*.bvh" --emotion tired --posture-head 10 -o tired/
     """
-    from ..batch import Job, edit_files
-    from .inputs import expand, outputs, refuse_existing
+    from ..batch import Job
+    from .inputs import STDOUT
 
     made = _recipe(emotion, recipe, flags, foot_plant)
-    found = expand(clips)
-    targets = outputs(found, out, label=made.name, force=force)
-    read = {"fps": fps, "salvage": salvage}
-    todo = [
-        Job(
-            clip.path,
-            target,
-            made,
-            strength=_checked_strength(strength),
-            parts=_parts(parts),
-            span=_span(span),
-            read=read,
-            body=a.read_map(map_file),
-            sidecar=sidecar,
-            force=force,
-        )
-        for clip, target in zip(found, targets, strict=True)
-    ]
-    if sidecar and not force:
-        from ..batch import sidecar_of
-
-        refuse_existing(sidecar_of(job.target) for job in todo)
+    whole = Job(
+        Path(),
+        Path(),
+        _eased(made, ease, bool(span)),
+        strength=_checked_strength(strength),
+        parts=_parts(parts),
+        span=_span(span),
+        sidecar=sidecar and out != STDOUT,
+        force=force,
+        **_reading(recipe, fps, salvage, map_file),
+    )
+    todo = _jobs(clips, whole, out)
     if dry_run:
         _plan(todo, as_json)
-        return
+    elif out == STDOUT:
+        _to_stdout(todo[0], as_json)
+    else:
+        _write(todo, jobs, as_json)
+
+
+def _jobs(clips: list[str], whole: "Job", out: Path | None) -> "list[Job]":
+    """Return one job a clip, each like ``whole``."""
+    from dataclasses import replace
+
+    from ..emotion.files import sidecar_of
+    from .inputs import STDOUT, expand, label, outputs, passed_over
+
+    found = passed_over(expand(clips), lambda path: sidecar_of(path).exists())
+    if out == STDOUT and len(found) == 1:
+        return [replace(whole, source=found[0].path, target=STDOUT)]
+    name = label(whole.recipe.name, whole.strength, whole.parts, whole.span)
+    targets = outputs(found, out, label=name)
+    return [replace(whole, source=c.path, target=target) for c, target in zip(found, targets, strict=True)]
+
+
+def _write(todo: "Sequence[Job]", jobs: int, as_json: bool) -> None:
+    """Do the jobs, unless a file would be lost, and say what was written."""
+    from ..batch import edit_files
+    from .inputs import refuse_existing
+
+    if not todo[0].force:
+        refuse_existing(file for job in todo for file in _files(job))
     workers = jobs or os.cpu_count() or 1
-    done = list(progress(edit_files(todo, workers=workers), total=len(todo), doing="editing"))
-    _report(done, as_json)
+    _report(list(progress(edit_files(todo, workers=workers), total=len(todo), doing="editing")), as_json)
+
+
+def _files(job: "Job") -> list[Path]:
+    """Return the files that a job writes."""
+    from ..emotion.files import sidecar_of
+
+    return [job.target, *([sidecar_of(job.target)] if job.sidecar else [])]
+
+
+def _to_stdout(job: "Job", as_json: bool) -> None:
+    """Write the edited clip, and nothing else, to stdout."""
+    from ..batch import doubts, edited
+    from ..formats import bvh
+
+    if as_json:
+        raise MienError("stdout takes the clip (-o -) or --json, not both")
+    try:
+        before, after = edited(job)
+    except MienError as error:
+        raise MienError(located(job.source, str(error))) from None
+    for doubt in doubts(job, before):
+        _doubt(job, doubt)
+    typer.echo(bvh.render(after), nl=False)
+
+
+def _reading(recipe: Path | None, fps: float | None, salvage: bool, map_file: Path | None) -> dict[str, Any]:
+    """Return how clips are read: as the flags say, else as a sidecar given as recipe says."""
+    from ..batch import how_it_was_read
+
+    read, roles = how_it_was_read(recipe) if recipe else ({}, {})
+    if fps is not None:
+        read["fps"] = fps
+    return {"read": read | ({"salvage": True} if salvage else {}), "body": a.read_map(map_file) or roles}
 
 
 def _recipe(
-    emotion: str | None, path: Path | None, flags: Mapping[str, Mapping[str, Any]], foot_plant: bool | None
+    emotions: list[str] | None,
+    path: Path | None,
+    flags: Mapping[str, Mapping[str, Any]],
+    foot_plant: bool | None,
 ) -> "Recipe":
     """Return what is to be done, checked before a single clip is read."""
     from dataclasses import replace
@@ -115,14 +179,17 @@ def _recipe(
     from ..emotion.resolve import resolve
     from ..recipe import Recipe
     from .flags import compose
+    from .inputs import existing
 
-    what = emotion or path
-    if emotion and path:
+    if emotions and path:
         raise MienError("give --emotion or --recipe, not both")
+    if len(emotions or ()) > 1:
+        raise MienError(f"give one emotion, not {' and '.join(emotions or ())}; edit the result for the next")
+    what = emotions[0] if emotions else existing(path) if path else None
     if not (what or flags):
         raise MienError(
             "say what to change: --emotion, --recipe or a flag of an edit "
-            "(`mien presets` lists emotions, `mien edit --help` all flags)"
+            "(mien presets lists emotions, mien edit --help all flags)"
         )
     recipe = resolve(what) if what else Recipe("edited", ())
     if foot_plant is None and not path:
@@ -131,6 +198,21 @@ def _recipe(
     for step in steps:
         pipeline.check(step)
     return replace(recipe, steps=steps)
+
+
+def _eased(recipe: "Recipe", ease: float | None, limited: bool) -> "Recipe":
+    """Return the recipe with another ease of its pose edits; ``limited`` says that a span is given."""
+    from dataclasses import replace
+
+    from ..edits import pipeline
+    from ..edits.registry import EDITS
+
+    if ease is None:
+        return recipe
+    if not (limited or any(step.span for step in recipe.steps)):
+        raise MienError("--ease is how long the ends of a span take to set in: give --span too")
+    steps = [replace(s, ease=ease) if EDITS[s.edit].kind == "pose" else s for s in recipe.steps]
+    return replace(recipe, steps=tuple(pipeline.check(step) for step in steps))
 
 
 def _checked_strength(strength: float) -> float:
@@ -163,19 +245,44 @@ def _span(text: str) -> tuple[float, float] | None:
 
 
 def _plan(todo: "Sequence[Job]", as_json: bool) -> None:
-    """Say what would be written and the steps, without reading a clip."""
+    """Say what would be written and the steps as they would be done, without reading a clip."""
     from dataclasses import asdict
 
-    recipe = todo[0].recipe
+    from ..edits import pipeline
+
+    job = todo[0]
+    steps = pipeline.plan(job.recipe, strength=job.strength, parts=job.parts, span=job.span)
+    there = [any(file.exists() for file in _files(job)) for job in todo]
     if as_json:
-        files = [{"input": str(job.source), "output": str(job.target)} for job in todo]
-        show_json({"dry_run": True, "files": files, "steps": [asdict(step) for step in recipe.steps]})
+        files = [
+            {"input": str(job.source), "output": str(job.target), "exists": exists}
+            for job, exists in zip(todo, there, strict=True)
+        ]
+        show_json({"dry_run": True, "files": files, "steps": [asdict(step) for step in steps]})
         return
-    for job in todo:
-        typer.echo(f"{job.source} -> {job.target}")
-    for number, step in enumerate(recipe.steps, start=1):
-        values = " ".join(f"{key}={value}" for key, value in step.parameters.items())
-        typer.echo(f"  {number}. {step.edit} {values}".rstrip())
+    needs = "exists: will be replaced" if job.force else "exists: needs --force"
+    for job, exists in zip(todo, there, strict=True):
+        typer.echo(f"{job.source} -> {job.target}{f' ({needs})' if exists else ''}")
+    for number, step in enumerate(steps, start=1):
+        typer.echo(f"  {number}. {_described(step)}")
+    if not steps:
+        typer.echo("  nothing is changed")
+
+
+def _described(step: "Step") -> str:
+    """Return a step in one line: what is not at its default, and how strongly, where and when it is done."""
+    from ..edits.registry import EDITS
+
+    known = EDITS[step.edit].parameters
+    values = [f"{key}={_shown(v)}" for key, v in step.parameters.items() if v != known[key].default]
+    limits = [f"strength {step.strength:g}"] if EDITS[step.edit].kind == "pose" else []
+    limits += [f"parts {','.join(step.parts)}"] if step.parts else []
+    limits += [f"{step.span[0]:g} to {step.span[1]:g} s, ease {step.ease:g} s"] if step.span else []
+    return "; ".join([" ".join([step.edit, *values]), *limits])
+
+
+def _shown(value: Any) -> str:
+    return ",".join(value) if isinstance(value, tuple) else str(value)
 
 
 def _report(done: "Sequence[Outcome]", as_json: bool) -> None:
@@ -183,8 +290,10 @@ def _report(done: "Sequence[Outcome]", as_json: bool) -> None:
     if as_json:
         show_json([_as_data(outcome) for outcome in done])
     for outcome in done:
+        for doubt in outcome.notes:
+            _doubt(outcome.job, doubt)
         if outcome.error:
-            complain(_failure(outcome))
+            complain(located(outcome.job.source, outcome.error))
         elif not as_json:
             typer.echo(str(outcome.job.target))
     failed = [outcome for outcome in done if outcome.error]
@@ -196,15 +305,13 @@ def _report(done: "Sequence[Outcome]", as_json: bool) -> None:
     raise typer.Exit(2 if bad_input else 1)
 
 
-def _failure(outcome: "Outcome") -> str:
-    """Return one sentence that names the clip once."""
-    name = outcome.job.source.name
-    where = "" if name in outcome.error else f"{outcome.job.source}: "
-    return f"{where}{outcome.error}"
+def _doubt(job: "Job", text: str) -> None:
+    note(f"mien: note: {located(job.source, text)}")
 
 
 def _as_data(outcome: "Outcome") -> dict[str, Any]:
     files = {"input": str(outcome.job.source), "output": str(outcome.job.target)}
     if outcome.error:
         return files | {"error": outcome.error}
-    return files | {"frames": outcome.frames, "seconds": outcome.duration, "steps": list(outcome.steps)}
+    made = {"frames": outcome.frames, "seconds": outcome.duration, "steps": list(outcome.steps)}
+    return files | made | {"notes": list(outcome.notes)}

@@ -37,17 +37,16 @@ def compose(
 ) -> tuple[Step, ...]:
     """Return the steps of a recipe with those that flags mean.
 
-    A flag of an edit that the recipe has changes the recipe's first step of that edit; any other adds a
-    step, at its place in ``ORDER``. ``foot_plant`` True puts the feet back after the poses are edited,
+    A flag of an edit that the recipe has changes every step of that edit in it; any other adds a step, at
+    its place in ``ORDER``. ``foot_plant`` True puts the feet back after the poses are edited,
     False leaves no repair of the feet, None leaves the recipe as it is.
     """
     made = list(steps)
     for name in sorted(flags, key=_rank):
         there = [i for i, step in enumerate(made) if step.edit == name]
-        if there:
-            step = made[there[0]]
-            made[there[0]] = replace(step, parameters={**step.parameters, **flags[name]})
-        else:
+        for i in there:
+            made[i] = replace(made[i], parameters={**made[i].parameters, **flags[name]})
+        if not there:
             _insert(made, Step(name, dict(flags[name])))
     if foot_plant is False:
         return tuple(step for step in made if step.edit != "foot_plant")
@@ -77,7 +76,7 @@ def _options(edit: Edit) -> list[inspect.Parameter]:
     if not _works_as_it_is(edit):
         return found
     about = typer.Option(
-        flag_name(edit.name), help=edit.summary, rich_help_panel=_panel(edit), show_default=False
+        flag_name(edit.name), help=_plain(edit.summary), rich_help_panel=_panel(edit), show_default=False
     )
     return [_keyword(edit.name, "", bool | None, about), *found]
 
@@ -107,8 +106,7 @@ def describe(parameter: Parameter) -> str:
     shown = f"{default:g}" if type(default) in (int, float) else str(default).lower()
     shown = ",".join(default) if isinstance(default, tuple) else shown
     facts = [f"{_limits(about)} {about.unit}".strip(), f"default {shown or 'none'}"]
-    text = f"{about.doc} ({'; '.join(fact for fact in facts if fact)})"
-    return text.replace("[", "\\[")  # not a style for rich
+    return f"{_plain(about.doc)} ({'; '.join(fact for fact in facts if fact)})"
 
 
 def _limits(about: Param) -> str:
@@ -120,7 +118,11 @@ def _limits(about: Param) -> str:
 
 
 def _panel(edit: Edit) -> str:
-    return shorten(f"{edit.name}: {edit.summary}", 74, placeholder=" ...")
+    return shorten(f"{edit.name}: {_plain(edit.summary)}", 74, placeholder=" ...")
+
+
+def _plain(text: str) -> str:
+    return text.replace("``", "")
 
 
 def _keyword(edit: str, parameter: str, kind: Any, about: Any) -> inspect.Parameter:

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from ..errors import MienError
 from . import arguments as a
 
 
@@ -23,7 +24,10 @@ def pose(
     """
     from ..formats import files
     from ..kinematics.poses import pose_between, write_pose
+    from .inputs import STDOUT
 
+    if out == STDOUT:
+        raise MienError("a pose is written to a file; name one after -o")
     first, second = (a.opened(path, fps, salvage, map_file) for path in (neutral, changed))
     files.check_target(out, force=force)
     write_pose(out, pose_between(first, second))

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import MienError
+from ..errors import BodyError, MienError
 from . import arguments as a
-from .report import progress
+from .report import note, progress
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -48,17 +48,20 @@ def render(
 
     mien render walk_sad.bvh --against walk.bvh -o walk_sad.gif
     """
-    from .inputs import expand, outputs
+    from .inputs import expand, outputs, refuse_existing
 
     found = expand(clips)
     suffix = out.suffix.lower() if out and out.suffix and not out.is_dir() else ".png"
     if suffix not in (*PICTURES, *FILMS):
         raise MienError(f"{out}: a picture is {', '.join(PICTURES)}, a film {' or '.join(FILMS)}")
-    targets = outputs(found, out, label="strip", suffix=suffix, force=force)
+    targets = outputs(found, out, label="strip", suffix=suffix, doing="render")
+    if not force:
+        refuse_existing(targets)
     other = a.opened(against, fps, salvage, map_file) if against else None
     seen = [view.strip() for view in views.split(",") if view.strip()]
     for clip, target in progress(zip(found, targets, strict=True), total=len(found), doing="drawing"):
         motion = a.opened(clip.path, fps, salvage, map_file)
+        _warn_of_sticks(clip.path, motion)
         target.parent.mkdir(parents=True, exist_ok=True)
         if suffix in FILMS:
             _film(motion, target, other, seen, ghost, force)
@@ -75,6 +78,17 @@ def render(
             )
             save_picture(picture, target)
         typer.echo(str(target))
+
+
+def _warn_of_sticks(path: Path, motion: "Motion") -> None:
+    """Say why a figure is drawn as sticks, where no body is found."""
+    from ..kinematics.body import Body
+
+    try:
+        Body.of(motion)
+    except BodyError as error:
+        why = str(error).splitlines()[0].split(". ")[0].rstrip(".")
+        note(f"mien: note: {path} is drawn as sticks: {why} (a map file helps, given with --map)")
 
 
 def _film(

@@ -3,11 +3,14 @@
 import json
 import sys
 from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from shutil import get_terminal_size
 from typing import Any, TypeVar
 
 import typer
 
 T = TypeVar("T")
+PIPE_WIDTH = 100  # columns of a table where neither a terminal nor COLUMNS says how wide
 
 
 def complain(message: str) -> None:
@@ -18,6 +21,14 @@ def complain(message: str) -> None:
 def note(message: str) -> None:
     """Say something beside the data."""
     typer.echo(message, err=True)
+
+
+def located(path: Path, error: str) -> str:
+    """Return what went wrong with the clip in front, by the path that was given."""
+    if error.startswith(str(path)):
+        return error
+    rest = error.removeprefix(path.name)
+    return f"{path}{rest}" if rest != error and rest[:1] in (":", " ") else f"{path}: {error}"
 
 
 def show_json(data: Any) -> None:
@@ -44,8 +55,12 @@ def show_table(
         table.add_column(column, justify="right" if index >= numbers else "left", overflow="fold")
     for row in rows:
         table.add_row(*row)
-    terminal = sys.stdout.isatty()
-    Console(width=None if terminal else 160, highlight=False, markup=False).print(table)
+    width = get_terminal_size((PIPE_WIDTH, 24)).columns
+    console = Console(width=width, highlight=False, markup=False)
+    with console.capture() as shown:
+        console.print(table)
+    for line in shown.get().splitlines():
+        typer.echo(line.rstrip())
 
 
 def number(value: float, digits: int = 2) -> str:

@@ -49,21 +49,35 @@ def apply(
     ``strength`` multiplies every step's own (0 returns the motion itself). Of steps that edit the pose
     only what lies within ``parts`` and ``span`` is done; repairs see the whole clip.
     """
-    if not 0.0 <= strength <= 2.0:
-        raise RecipeError(f"strength must be from 0 to 2, got {strength:g}")
-    steps = [check(s) for s in (recipe.steps if isinstance(recipe, Recipe) else recipe)]
+    steps = plan(recipe, strength=strength, parts=parts, span=span)
     if span is not None and not (span[1] >= 0.0 and span[0] <= motion.duration and span[0] < span[1]):
         raise RecipeError(
             f"the span from {span[0]:g} to {span[1]:g} s holds nothing of the clip, which lasts "
             f"{motion.duration:g} s"
         )
-    if strength == 0.0:
-        return motion
     for step in steps:
-        limited = _limited(step, strength, tuple(parts), span)
-        if limited is not None:
-            motion = _apply_step(motion, limited)
+        motion = _apply_step(motion, step)
     return motion
+
+
+def plan(
+    recipe: Recipe | Iterable[Step],
+    *,
+    strength: float = 1.0,
+    parts: Sequence[str] = (),
+    span: tuple[float, float] | None = None,
+) -> list[Step]:
+    """Return the steps that ``apply`` does, each complete and as it is done; without those that do nothing.
+
+    Raises ``RecipeError`` for what is unknown or out of range.
+    """
+    if not 0.0 <= strength <= 2.0:
+        raise RecipeError(f"strength must be from 0 to 2, got {strength:g}")
+    steps = [check(s) for s in (recipe.steps if isinstance(recipe, Recipe) else recipe)]
+    if strength == 0.0:
+        return []
+    limited = (_limited(step, strength, tuple(parts), span) for step in steps)
+    return [step for step in limited if step is not None and step.strength > 0.0]
 
 
 def _limited(
@@ -83,8 +97,6 @@ def _limited(
 
 
 def _apply_step(motion: Motion, step: Step) -> Motion:
-    if step.strength == 0.0:
-        return motion
     edit = EDITS[step.edit]
     joints = Body.of(motion).joints(step.parts) if step.parts else None
     after = edit.perform(motion, edit.scaled(step.parameters, step.strength), joints=joints)

@@ -27,11 +27,14 @@ from pathlib import Path
 from typing import Any, Literal
 
 from ..edits import pipeline
+from ..edits.registry import EDITS
 from ..errors import RecipeError, unknown
+from ..formats import FORMATS
 from ..kinematics.body import PARTS, ROLES
 from ..recipe import VERSION, Recipe, Step
 
 SUFFIXES = (".toml", ".json")
+SIDECAR = ".recipe.toml"  # what the file beside an edited clip is called, after the clip's own name
 Kind = Literal["toml", "json"]
 _STEP_KEYS = tuple(f.name for f in fields(Step) if f.name != "parameters")
 _RECIPE_KEYS = tuple(f.name for f in fields(Recipe))
@@ -43,13 +46,21 @@ def read_recipe(path: str | Path) -> Recipe:
     Raises ``RecipeError`` naming the file, the step by number, what does not fit and what would.
     """
     path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise RecipeError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except UnicodeDecodeError:
-        raise RecipeError(f"{path}: is not text (a recipe file is TOML or JSON in UTF-8)") from None
-    return parse_recipe(text, kind=_kind(path), where=str(path))
+    return parse_recipe(_text(path), kind=_kind(path), where=str(path))
+
+
+def read_provenance(path: str | Path) -> dict[str, Any]:
+    """Return the ``[provenance]`` table of a recipe file: what made a clip. Empty where there is none."""
+    path = Path(path)
+    where = str(path)
+    return dict(
+        _is(where, "provenance", _decode(_text(path), _kind(path), where).get("provenance", {}), dict)
+    )
+
+
+def sidecar_of(clip: Path) -> Path:
+    """Return the file that says how ``clip`` was made; it is a recipe, and replays to the same clip."""
+    return clip.with_name(clip.name + SIDECAR)
 
 
 def write_recipe(recipe: Recipe, path: str | Path) -> None:
@@ -62,6 +73,8 @@ def parse_recipe(text: str, *, kind: Kind = "toml", where: str = "recipe") -> Re
     """Return the recipe written in ``text``; ``where`` names its place in error messages."""
     table = _decode(text, kind, where)
     version = table.get("version")
+    if version is None and "turns" in table:
+        raise RecipeError(f"{where}: is a pose file, not a recipe; give it with --posture-pose")
     if version is None:
         raise RecipeError(f"{where}: has no version; add the line: version = {VERSION}")
     if version != VERSION or isinstance(version, bool):
@@ -104,6 +117,21 @@ def format_recipe(recipe: Recipe, *, kind: Kind = "toml", provenance: Mapping[st
     return "\n".join([tomli_w.dumps(head), *tables_of_steps])
 
 
+def _text(path: Path) -> str:
+    if path.suffix.lower() in FORMATS:
+        its = sidecar_of(path)
+        hint = f"its recipe is {its}" if its.exists() else "a recipe is a .toml or .json file"
+        raise RecipeError(f"{path}: is a clip; {hint}")
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise RecipeError(f"{path}: there is no such file") from None
+    except OSError as error:
+        raise RecipeError(f"{path}: cannot be read: {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise RecipeError(f"{path}: is not text (a recipe file is TOML or JSON in UTF-8)") from None
+
+
 def _kind(path: Path) -> Kind:
     return "json" if path.suffix.lower() == ".json" else "toml"
 
@@ -124,8 +152,11 @@ def _step(where: str, table: Any) -> Step:
     name = table.get("edit")
     if name is None:
         raise RecipeError(f'{where}: names no edit; add a line such as: edit = "posture"')
+    name = _is(where, "edit", name, str)
+    if name in EDITS:
+        _known_keys(f"{where}: {name}", "parameter", table, (*EDITS[name].parameters, *_STEP_KEYS))
     step = Step(
-        edit=_is(where, "edit", name, str),
+        edit=name,
         parameters={key: value for key, value in table.items() if key not in _STEP_KEYS},
         strength=_number(where, "strength", table.get("strength", 1.0)),
         parts=tuple(_part(where, part) for part in _is(where, "parts", table.get("parts", []), list)),

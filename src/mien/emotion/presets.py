@@ -45,13 +45,25 @@ S0 = (
 PRESETS = (*OWN, *(f"s0/{name}" for name in S0))
 
 
-@cache
 def preset(name: str) -> Recipe:
-    """Return the recipe of an emotion word such as ``"sad"`` or ``"s0/sad"``.
+    """Return the recipe of an emotion word such as ``"sad"`` or ``"s0/sad"``, in upper or lower case.
 
     Raises ``RecipeError`` with the nearest word when there is none of that name.
     """
-    if name not in PRESETS:
-        raise RecipeError(unknown("emotion", name, PRESETS))
+    word = name.strip().casefold()
+    if word not in PRESETS:
+        raise no_emotion(name)
+    return _read(word)
+
+
+def no_emotion(name: str) -> RecipeError:
+    """Return the error for a word that is none of the presets: the nearest one, and which there are."""
+    if name.casefold().startswith("s0/"):
+        return RecipeError(unknown("emotion", name, PRESETS[len(OWN) :]))
+    return RecipeError(f"{unknown('emotion', name, OWN)}, and s0/NAME for the thesis (mien presets)")
+
+
+@cache
+def _read(name: str) -> Recipe:
     text = files(__package__).joinpath("recipes", f"{name}.toml").read_text(encoding="utf-8")
     return parse_recipe(text, where=f"preset {name}")

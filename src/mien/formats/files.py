@@ -25,10 +25,27 @@ def check_target(path: Path, *, force: bool) -> None:
     """Raise ``FormatError`` unless ``path`` may be written: its folder exists, and nothing is lost."""
     if path.is_dir():
         raise FormatError(f"{path} is a folder; give the name of the file to write in it")
+    check_folder(path.parent)
     if not path.parent.is_dir():
         raise FormatError(f"{path}: there is no folder {path.parent}; make it first")
     if path.exists() and not force:
-        raise FormatError(f"{path} exists already; use --force to replace it")
+        raise exists_already(path)
+
+
+def check_folder(folder: Path) -> None:
+    """Raise ``FormatError`` when ``folder``, or what it would lie in, is a file."""
+    there = next((path for path in (folder, *folder.parents) if path.exists()), folder)
+    if there.exists() and not there.is_dir():
+        raise FormatError(f"{there} is a file, not a folder")
+
+
+def exists_already(path: Path, *, more: int = 0) -> FormatError:
+    """Return the error for a file that would be lost, and how many ``more`` would be."""
+    others = f" (and {more} more)" if more else ""
+    return FormatError(
+        f"{path}{others} exists already: give another name, or allow replacing it "
+        "(--force, in Python force=True)"
+    )
 
 
 def write(path: Path, data: bytes) -> None:

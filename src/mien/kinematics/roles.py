@@ -4,6 +4,7 @@ import tomllib
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from ..errors import BodyError, unknown
 from ..motion import Skeleton
@@ -24,18 +25,27 @@ def read_map(path: str | Path) -> dict[str, str]:
     """
     try:
         content = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise BodyError(f"{path}: there is no such file") from None
     except OSError as error:
-        raise BodyError(f"cannot read the map file {path}: {error.strerror}") from error
+        raise BodyError(f"{path}: cannot be read: {error.strerror or error}") from None
     except ValueError as error:
-        raise BodyError(f"the map file {path} is not valid TOML: {error}") from error
+        raise BodyError(f"{path}: is not valid TOML: {error}") from None
     table = content.get("roles")
     if set(content) != {"roles"} or not isinstance(table, dict):
-        raise BodyError(f'the map file {path} needs one table of roles, e.g.\n[roles]\nhips = "pelvis"')
+        raise BodyError(f'{path}: a map file has one table of roles, e.g.\n[roles]\nhips = "pelvis"')
+    return known_roles(table, str(path))
+
+
+def known_roles(table: Any, where: str) -> dict[str, str]:
+    """Return a table of role -> joint name; ``BodyError``, naming ``where``, if it is none."""
+    if not isinstance(table, Mapping):
+        raise BodyError(f"{where} must be a table of roles, got {table!r:.80}")
     for role, name in table.items():
         if role not in ROLES:
-            raise BodyError(f"{path}: {unknown('role', role, ROLES)}")
+            raise BodyError(f"{where}: {unknown('role', role, ROLES)}")
         if not isinstance(name, str):
-            raise BodyError(f"{path}: {role} must be a joint name in quotes, got {name!r}")
+            raise BodyError(f"{where}: {role} must be a joint name in quotes, got {name!r}")
     return dict(table)
 
 
