@@ -111,3 +111,28 @@ def test_everything_is_plain_data(walk: mien.Motion) -> None:
     json.dumps(data)
     assert len(data["joints"]) == 22
     assert {"Head", "LeftHand", "RightToeBase"} <= set(data["tips"])
+
+
+def test_two_separate_clips_are_each_judged_on_their_own_feet(walk: mien.Motion) -> None:
+    """A mirrored clip slides as little as the clip: its feet stand at other times."""
+    mirrored = mien.apply(walk, mien.Step("mirror")).with_(history=(), reference=None)
+    found = {c.name: c for c in compare(walk, mirrored).changes}
+    assert found["foot_slide"].after == pytest.approx(found["foot_slide"].before, abs=0.05)
+    assert found["foot_sink"].after == pytest.approx(found["foot_sink"].before, abs=0.05)
+    assert {c.name: c for c in before_after(walk, mirrored)}["foot_slide"].after > 20.0
+
+
+def test_an_edit_is_known_to_be_one(walk: mien.Motion) -> None:
+    slid = mien.apply(walk, mien.Step("path_length", {"mid": 0.4}))
+    more = mien.apply(slid, mien.Step("posture", {"head": 10.0}))
+    for a, b in ((walk, slid), (walk, more), (slid, more)):
+        found, wanted = (
+            [c.after for c in changes] for changes in (compare(a, b).changes, before_after(a, b))
+        )
+        np.testing.assert_equal(found, wanted)
+
+
+def test_what_is_no_motion_is_told_so(walk: mien.Motion) -> None:
+    for find in (compare, before_after):
+        with pytest.raises(MienError, match=r"mien\.load\('walk\.bvh'\)"):
+            find(walk, "walk.bvh")

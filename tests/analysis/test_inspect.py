@@ -8,6 +8,7 @@ import pytest
 from mien import samples
 from mien.analysis.inspect import notes
 from mien.formats import load
+from mien.kinematics.body import Body
 from mien.motion import Motion, Skeleton
 from mien.rotations import quaternion
 
@@ -83,3 +84,45 @@ def test_real_clips_with_wrong_rates_or_jumps_are_named_and_no_others(data: Path
             assert "T-pose" in said, path
         if path.parent.name.startswith("bandai"):
             assert said == "", (path, said)
+
+
+def lifted(walk: Motion, rise: np.ndarray) -> Motion:
+    """The walk with its hips raised by ``rise`` (T) leg lengths."""
+    body = Body.of(walk)
+    translations = np.array(walk.translations)
+    translations[:, body.roles["hips"]] += rise[:, None] * body.leg_length * body.up
+    return walk.with_(translations=translations)
+
+
+def test_feet_that_hover_are_named(walk: Motion) -> None:
+    """Heights that drift up by half a leg, on feet that slide as fast as people stroll."""
+    share = np.linspace(0.0, 1.0, len(walk))
+    drifting = lifted(walk, 0.6 * np.minimum(4.0 * share, 1.0))
+    translations = np.array(drifting.translations)
+    body = Body.of(walk)
+    translations[:, body.roles["hips"]] += (4.0 * share)[:, None] * body.leg_length * body.left
+    found = notes(drifting.with_(translations=translations))
+    assert len(found) == 1
+    assert "the feet hover about 0." in found[0]
+
+
+def test_somebody_who_stands_on_a_step_does_not_hover(walk: Motion) -> None:
+    high = np.where(np.arange(len(walk)) < len(walk) // 4, 0.0, 0.15)
+    assert notes(lifted(walk, high)) == []
+
+
+def test_positions_that_fold_the_body_are_named(walk: Motion) -> None:
+    folded = np.array(walk.translations)
+    folded[:, 1:] = 0.0
+    for motion in (walk, walk[:1]):
+        found = notes(motion.with_(translations=folded[: len(motion)], reference=None))
+        assert found[0].startswith("21 of 22 joints lie on their parents")
+
+
+def test_real_clips_that_hover_or_fold_are_named_and_no_others(data: Path) -> None:
+    for path in sorted(data.glob("*/*.bvh")):
+        if path.parent.name == "malformed":
+            continue
+        said = " ".join(notes(load(path, salvage=True)))
+        assert ("hover" in said) == (path.stem in {"jesse_dance", "louise"}), (path, said)
+        assert ("on their parents" in said) == (path.stem == "makehuman_tpose"), (path, said)

@@ -1,6 +1,7 @@
 """The samples know their own truth: what was put into them must be measured."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -130,3 +131,28 @@ def test_short_clips_have_measures_or_none(frames: int) -> None:
 
 def test_standing_still_has_no_steps() -> None:
     assert np.isnan(measures(samples.still().motion)["step_length"])
+
+
+@pytest.mark.parametrize("middle", [0.0, 90.0, 180.0])
+def test_arm_swing_of_an_arm_that_waves_to_the_side_or_overhead(middle: float) -> None:
+    """Arms spread, or held overhead, that go 20 degrees to the front and back: no turning over at 180."""
+    still = samples.still(seconds=4.0).motion
+    body = Body.of(still)
+    turned, raised = world(still)[0], np.array(still.rotations)
+    swing = np.radians(20.0) * np.sin(2 * np.pi * np.arange(len(still)) / 60.0)
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        joint = body.roles[f"{side}_shoulder"]
+        parent = turned[:, still.skeleton.parents[joint]]
+        axis = body.left if middle != 90.0 else sign * body.up
+        lift = quaternion.exp(sign * np.radians(middle) * body.forward)
+        turn = quaternion.multiply(quaternion.exp(swing[:, None] * axis), lift)
+        local = quaternion.multiply(quaternion.conjugate(parent), quaternion.multiply(turn, parent))
+        raised[:, joint] = quaternion.multiply(local, raised[:, joint])
+    found = measures(still.with_(rotations=raised), body=body)["arm_swing"]
+    assert found == pytest.approx(40.0 * np.sin(0.45 * np.pi), rel=0.05)
+
+
+def test_arm_swing_of_real_clips_is_an_angle(data: Path) -> None:
+    for name in ("exporters/sample", "exporters/dab", "cmu_daz/05_20", "cmu_mb_misc/backflip"):
+        motion = mien.load(data / f"{name}.bvh")
+        assert 0.0 <= measures(motion)["arm_swing"] <= 180.0, name

@@ -1,5 +1,6 @@
 """What changed between two motions of the same skeleton, joint by joint and in sum."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,7 +9,7 @@ import numpy as np
 from ..errors import MienError
 from ..kinematics.body import Body
 from ..kinematics.fk import world
-from ..motion import Motion
+from ..motion import Motion, require_motion
 from ..rotations import quaternion
 from ..typing import Array, Integers
 from .measures import MEASURES, Footing, measures
@@ -85,9 +86,12 @@ def compare(a: Motion, b: Motion) -> Comparison:
     """Return what changed from ``a`` to ``b``: two motions whose joints have the same names.
 
     Clips with the same number of frames are compared frame by frame, others at the same share of
-    their length. Order of the joints, unit and place do not matter. Raises ``MienError`` naming the
-    joints that only one of them has.
+    their length. Order of the joints, unit and place do not matter. The measures in ``changes`` are those
+    of ``before_after`` where ``b`` was made from ``a`` by editing it; else each clip is judged where its own
+    feet stand. Raises ``MienError`` naming the joints that only one of them has.
     """
+    require_motion(a)
+    require_motion(b)
     order = _same_joints(a, b)
     first, second, aligned = _frames(a, b)
     bodies = Body.of(a), Body.of(b)
@@ -108,7 +112,7 @@ def compare(a: Motion, b: Motion) -> Comparison:
         tips=_tips(a, bodies[0]),
         aligned=aligned,
         centimetres=100.0 * bodies[0].metres_per_unit * bodies[0].leg_length,
-        changes=before_after(a, b),
+        changes=before_after(a, b) if _made_from(a, b) else _changes(measures(a), measures(b)),
     )
 
 
@@ -116,13 +120,22 @@ def before_after(before: Motion, after: Motion) -> tuple[Change, ...]:
     """Return every measure of ``analysis.measures`` before and after an edit.
 
     With the same skeleton and number of frames, the feet of ``after`` are judged where those of
-    ``before`` stood; else each clip is judged by itself.
+    ``before`` stood; else each clip is judged by itself. For two clips of which neither was made from
+    the other, use ``compare``.
     """
-    body = Body.of(before)
+    body = Body.of(require_motion(before))
     footing = Footing.of(before, body)
     first = measures(before, body=body, footing=footing)
-    edited = before.skeleton.names == after.skeleton.names and len(before) == len(after)
-    second = measures(after, body=body, footing=footing) if edited else measures(after)
+    edited = before.skeleton.names == require_motion(after).skeleton.names and len(before) == len(after)
+    return _changes(first, measures(after, body=body, footing=footing) if edited else measures(after))
+
+
+def _made_from(a: Motion, b: Motion) -> bool:
+    """Return whether ``b`` is an edit of ``a`` whose frames and sides are still those of ``a``."""
+    return b.reference is not None and (b.reference is a or b.reference is a.reference)
+
+
+def _changes(first: Mapping[str, float], second: Mapping[str, float]) -> tuple[Change, ...]:
     return tuple(
         Change(name, m.label, m.unit, m.digits, first[name], second[name]) for name, m in MEASURES.items()
     )

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..errors import BodyError
 from ..kinematics.body import Body
-from ..kinematics.contacts import spans
+from ..kinematics.contacts import foot_points, spans
 from ..kinematics.fk import world
 from ..kinematics.lead_in import lead_in
 from ..motion import Motion
@@ -17,24 +17,40 @@ JUMP = 0.3, 20.0  # leg lengths between two frames, and leg lengths a second: sp
 SWING = 0.1, 1.4  # seconds that a stepping foot may plausibly be under way
 USUAL_SWING = 0.45  # seconds, at an ordinary walk and run alike (Winter 2009: 40 % of a stride)
 STEP = 0.6  # leg lengths that a foot goes forward in what counts as a step
+HOVER, FLIGHT = 0.12, 0.8  # leg lengths above the floor; seconds that nobody can jump for
+STILL = 0.35  # leg lengths a second: a foot that stands is slower (see kinematics.contacts)
 RATES = 24, 25, 30, 50, 60, 100, 120, 240
 
 
 def notes(motion: Motion) -> list[str]:
     """Return a sentence for each thing that looks odd; an empty list if nothing does.
 
-    Looked for: a single frame, no movement at all, joints that turn while nothing travels, a still such
-    as a T-pose before the motion, hips that jump, and a frame rate at which feet swing too slowly or too
-    fast to be human. The last two need a humanoid and are left out without one.
+    Looked for: joints that lie on their parents although their bones are long, a single frame, no movement
+    at all, joints that turn while nothing travels, a still such as a T-pose before the motion, hips that
+    jump, feet that hover, and a frame rate at which feet swing too slowly or too fast to be human. The last
+    three need a humanoid and are left out without one.
     """
     if len(motion) == 1:
-        return ["there is one frame only: a pose, not a motion"]
-    return [*_movement(motion), *_start(motion), *doubts(motion)]
+        return [*_folded(motion), "there is one frame only: a pose, not a motion"]
+    return [*_folded(motion), *_movement(motion), *_start(motion), *doubts(motion)]
 
 
 def doubts(motion: Motion) -> list[str]:
-    """Return those of the ``notes`` that make an edit of the clip doubtful: hips that jump, an odd rate."""
+    """Return those of the ``notes`` that make an edit doubtful: jumping hips, hovering feet, an odd rate."""
     return _steps(motion) if len(motion) > 1 else []
+
+
+def _folded(motion: Motion) -> list[str]:
+    """Look for position channels that hold zeros where the bones of the skeleton are long."""
+    long = np.linalg.norm(motion.skeleton.offsets, axis=1)
+    moved = np.linalg.norm(motion.translations, axis=-1).max(axis=0)
+    folded = int(((moved < 1e-3 * long) & (motion.skeleton.parents >= 0)).sum())
+    if 2 * folded < len(motion.skeleton):
+        return []
+    return [
+        f"{folded} of {len(motion.skeleton)} joints lie on their parents, though the skeleton gives their "
+        "bones a length: the position channels hold zeros, perhaps meant to be added to the bones"
+    ]
 
 
 def _movement(motion: Motion) -> list[str]:
@@ -62,8 +78,13 @@ def _steps(motion: Motion) -> list[str]:
         body = Body.of(motion)
     except BodyError:
         return []
-    positions = world(motion)[1]
-    return [*_jumps(motion, positions, body), *_rate(motion, positions[lead_in(motion) :], body)]
+    rotations, positions = world(motion)
+    feet = foot_points(motion, body, rotations, positions)[lead_in(motion) :]
+    return [
+        *_jumps(motion, positions, body),
+        *_hovering(feet, body, motion.frame_time),
+        *_rate(motion, positions[lead_in(motion) :], body),
+    ]
 
 
 def _jumps(motion: Motion, positions: Array, body: Body) -> list[str]:
@@ -78,6 +99,24 @@ def _jumps(motion: Motion, positions: Array, body: Body) -> list[str]:
     return [
         f"the hips jump {steps[first]:.1f} leg lengths from frame {first} to frame {first + 1}{more}: "
         "broken positions, or a cut; trim if not meant"
+    ]
+
+
+def _hovering(feet: Array, body: Body, frame_time: float) -> list[str]:
+    """Look for feet (T, 2, 2, 3) that are in the air longer than a jump and stand on nothing there."""
+    height = (feet @ body.up - body.floor).min(axis=(1, 2)) / body.leg_length
+    air = np.zeros(len(feet), bool)
+    for start, stop in spans(height > HOVER):
+        air[start:stop] = (stop - start) * frame_time > FLIGHT
+    if air.mean() < 0.5:
+        return []
+    speed = np.linalg.norm(np.gradient(feet, frame_time, axis=0), axis=-1).min(axis=(1, 2)) / body.leg_length
+    if (speed[air] < STILL).mean() > 0.2:  # somebody who climbs, sits or hangs holds the feet still
+        return []
+    return [
+        f"the feet hover about {np.median(height[air]):.1f} leg lengths above the floor for {air.mean():.0%} "
+        "of the time and stand on nothing there: heights that drift, or a clip in which nobody stands; an "
+        "edit holds feet in place only where they stand"
     ]
 
 

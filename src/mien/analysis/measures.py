@@ -32,8 +32,8 @@ class Measure:
 
 
 MEASURES: Mapping[str, Measure] = {
-    "head_pitch": Measure("head down", "degrees"),
-    "trunk_flexion": Measure("trunk forward", "degrees"),
+    "head_pitch": Measure("head down, against the floor", "degrees"),
+    "trunk_flexion": Measure("trunk forward, from upright", "degrees"),
     "elbow_flexion": Measure("elbows bent", "degrees"),
     "arm_swing": Measure("arm swing", "degrees"),
     "hips_height": Measure("hips height", "cm"),
@@ -69,12 +69,13 @@ class Footing:
 def measures(motion: Motion, *, body: Body | None = None, footing: Footing | None = None) -> dict[str, float]:
     """Return every measure of ``MEASURES``; what cannot be measured is not a number.
 
-    Means over the clip: ``head_pitch`` of the face below where the neutral stance looks,
-    ``trunk_flexion`` of the line from hips to shoulders from the vertical, ``elbow_flexion`` from
-    straight; ``arm_swing`` is the range (5th to 95th percentile) of the upper arm's angle seen from the
-    side. ``foot_slide`` is the mean over contacts, ``foot_sink`` the deepest. ``body`` and ``footing``
-    are those of the source clip when the motion was made from one: then slide and sink are judged where
-    the source's feet stood. A T-pose before the motion is left out, but for ``duration``.
+    Means over the clip: ``head_pitch`` of the face against the floor, 0 where the neutral stance looks,
+    so a trunk that bends takes the head with it; ``trunk_flexion`` of the line from hips to shoulders from
+    the vertical, ``elbow_flexion`` from straight. ``arm_swing`` is the range (5th to 95th percentile) of the
+    angle by which the upper arm points in front of the body or behind it, at most 180 degrees.
+    ``foot_slide`` is the mean over contacts, ``foot_sink`` the deepest. ``body`` and ``footing`` are those of
+    the source clip when the motion was made from one: then slide and sink are judged where the source's
+    feet stood. A T-pose before the motion is left out, but for ``duration``.
     """
     body = body or Body.of(motion)
     footing = footing or Footing.of(motion, body)
@@ -101,15 +102,6 @@ def measures(motion: Motion, *, body: Body | None = None, footing: Footing | Non
     }
 
 
-def _pitch(directions: Array, frame: Array, body: Body, rest: Array) -> Array:
-    """Return the angle (...) in degrees that ``directions`` are tipped from ``rest`` towards the front.
-
-    ``rest`` is ``body.up`` or ``-body.up``; ``frame`` (T, 4) undoes the heading.
-    """
-    seen = quaternion.rotate(frame, directions)
-    return np.asarray(np.degrees(np.arctan2(seen @ body.forward, seen @ rest)))
-
-
 def _head_pitch(motion: Motion, body: Body, rotations: Array, frame: Array) -> float:
     """Return the mean pitch of the face: 0 as in the neutral stance, positive down."""
     if "head" not in body.roles:
@@ -123,7 +115,8 @@ def _head_pitch(motion: Motion, body: Body, rotations: Array, frame: Array) -> f
 
 def _trunk_flexion(body: Body, positions: Array, frame: Array) -> float:
     shoulders, hips = (_middle(body, positions, role) for role in ("shoulder", "hip"))
-    return float(_pitch(shoulders - hips, frame, body, body.up).mean())
+    seen = quaternion.rotate(frame, shoulders - hips)
+    return float(np.degrees(np.arctan2(seen @ body.forward, seen @ body.up)).mean())
 
 
 def _middle(body: Body, positions: Array, role: str) -> Array:
@@ -149,10 +142,16 @@ def _angle(a: Array, b: Array) -> Array:
 
 
 def _arm_swing(body: Body, positions: Array, frame: Array) -> float:
+    """Return the range of the angle between each upper arm and the frontal plane.
+
+    For an arm that swings at the side it is the angle seen from the side; unlike that one it does not turn
+    over where the arm points to the side or goes overhead.
+    """
     ranges = []
     for side in SIDES:
         arm = positions[:, body.roles[f"{side}_elbow"]] - positions[:, body.roles[f"{side}_shoulder"]]
-        angles = np.degrees(np.unwrap(np.radians(_pitch(arm, frame, body, -body.up))))
+        ahead = quaternion.rotate(frame, arm) @ body.forward / np.maximum(np.linalg.norm(arm, axis=1), 1e-12)
+        angles = np.degrees(np.arcsin(np.clip(ahead, -1.0, 1.0)))
         low, high = np.percentile(angles, (5, 95))
         ranges.append(high - low)
     return float(np.mean(ranges))
