@@ -110,7 +110,7 @@ def test_the_grid_stays_in_the_world_while_the_camera_moves(view):
 
 def test_mp4_without_pyav_says_how_to_get_it(tmp_path, walk, monkeypatch):
     monkeypatch.setitem(sys.modules, "av", None)
-    with pytest.raises(MienError, match=r'pip install "mien\[video\]"'):
+    with pytest.raises(MienError, match=r"MP4 needs PyAV: pip install av \(or write a \.gif\)"):
         animate(walk, tmp_path / "walk.mp4")
     assert list(tmp_path.iterdir()) == []
 

@@ -170,6 +170,49 @@ def test_what_is_no_body_is_drawn_as_sticks(joints):
             assert colour_at(canvas, camera, point).min() < 250
 
 
+def below_a_root(snake, way):
+    """The snake hung below a root at the world's origin, ``way`` (T, 3) from it."""
+    tree = snake.skeleton
+    skeleton = Skeleton(
+        ("world", *tree.names),
+        [-1, *(tree.parents + 1)],
+        np.concatenate([np.zeros((1, 3)), tree.offsets]),
+        tree.end_parents + 1,
+        tree.end_offsets,
+    )
+    rotations = np.concatenate([snake.rotations[:, :1], snake.rotations], axis=1)
+    translations = np.concatenate([np.zeros((len(snake), 1, 3)), snake.translations], axis=1)
+    translations[:, 1] = way
+    return Motion(skeleton, rotations, translations, 0.1)
+
+
+@pytest.mark.parametrize("way", [[[900.0, 0, 0]] * 3, [[0.0, 0, 0], [0, 0, 0.5], [0, 0, 1.0]]])
+def test_a_root_left_at_the_origin_is_not_drawn(way):
+    snake = chain(6)
+    alone, hung = Figure.of(snake), Figure.of(below_a_root(snake, way))
+    assert hung.drawn.tolist() == [1, 2, 3, 4, 5, 6]
+    assert hung.size == pytest.approx(alone.size)
+    canvas, camera = picture(hung, "side")
+    for point in hung.positions[0, 1:]:
+        assert colour_at(canvas, camera, point).min() < 250
+    frames = np.array([0])
+    bare = replace(hung, positions=hung.positions - hung.positions[:, 1:2])
+    wanted = replace(alone, positions=alone.positions - alone.positions[:, :1])
+    for solids in ("starts", "ends"):
+        np.testing.assert_allclose(
+            getattr(bare.solids(frames), solids), getattr(wanted.solids(frames), solids), atol=1e-12
+        )
+
+
+def test_a_root_that_is_part_of_the_figure_is_drawn():
+    snake = chain(6)
+    still = Figure.of(below_a_root(snake, [0.0, 0.4, 0.3]))
+    assert len(still.drawn) == 7
+    moving = snake.translations.copy()
+    moving[:, 0] = [[0, 0, 1.0], [0, 0, 2.0], [0, 0, 3.0]]
+    assert len(Figure.of(snake.with_(translations=moving)).drawn) == 6
+
+
 def test_a_lying_body_is_drawn_lying():
     still = samples.still(seconds=0.3)
     roll = quaternion.exp(-0.5 * np.pi * np.cross(still.up, still.forward))

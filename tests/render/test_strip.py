@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
+import mien
 from mien import Body, samples
 from mien.errors import MienError
 from mien.kinematics.fk import world
 from mien.render import compare, strip
-from mien.render.strip import pose_frames
+from mien.render.figure import Figure
+from mien.render.strip import _called, pose_frames
 
 
 def pixels(image):
@@ -153,3 +155,55 @@ def test_what_cannot_be_drawn_is_refused(walk, options, message):
 def test_comparing_nothing_is_refused():
     with pytest.raises(MienError, match="at least one"):
         compare({})
+
+
+def shifted(motion, by):
+    moved = motion.translations.copy()
+    moved[:, 0] += by
+    return motion.with_(translations=moved)
+
+
+@pytest.mark.parametrize("form", [{}, {"unit": "m"}])
+def test_travel_draws_both_clips_in_one_room(form):
+    """A clip whose poses stand where the other's do hides its ghost; moved aside by a metre it does not."""
+    walk, same = samples.walk(seconds=2.0).motion, samples.walk(seconds=2.0, **form).motion
+    metre = {"m": 1.0}.get(form.get("unit"), 100.0)
+    half = same[: len(same) // 2]
+    hidden = strip(walk, against=same, views=("side",), poses=3, travel=True, title="")
+    aside = shifted(same, [0.0, 0.0, metre])
+    beside = strip(walk, against=aside, views=("side",), poses=3, travel=True, title="")
+    assert ghostly(hidden)[40:].sum() < 300
+    assert ghostly(beside)[40:].sum() > 3000
+    begins = strip(walk[:1], against=half[:1], views=("side",), poses=1, travel=True, title="")
+    assert ghostly(begins)[40:].sum() < 300, "two clips that start at the same place are drawn so"
+
+
+def test_a_ghost_that_faces_another_way_is_turned():
+    walk, other = samples.walk(seconds=1.0).motion, samples.walk(seconds=1.0, heading=2.0).motion
+    turned = strip(walk, against=other.with_(name="other"), views=("side",), poses=4, title="")
+    assert ghostly(turned)[40:].sum() < 300
+
+
+def test_an_original_is_seen_by_the_same_camera():
+    """An edit that turns the body is seen to turn it."""
+    still = samples.still(seconds=0.5).motion
+    turned = samples.still(seconds=0.5, heading=1.5).motion
+    assert turned.name == still.name
+    assert ghostly(strip(turned, against=still, views=("side",), poses=2, title=""))[40:].sum() > 800
+
+
+@pytest.mark.parametrize(("name", "label"), [("walk", "original"), ("other", "other"), ("", "another clip")])
+def test_the_ghost_is_called_what_it_is(walk, name, label):
+    motion, ghost = (Figure.of(m) for m in (walk, walk.with_(name=name)))
+    assert _called(ghost, [motion]) == label
+
+
+def test_the_motion_before_an_edit_is_its_original(walk):
+    edited = mien.apply(walk, mien.Step("posture", {"head": 10.0})).with_(name="walk_bowed")
+    assert _called(Figure.of(walk), [Figure.of(edited)]) == "original"
+    assert _called(Figure.of(edited), [Figure.of(walk)]) == "walk_bowed"
+
+
+def test_what_is_no_motion_is_told_so():
+    with pytest.raises(MienError, match=r"mien\.load\('walk\.bvh'\)"):
+        strip("walk.bvh")

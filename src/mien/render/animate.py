@@ -41,10 +41,11 @@ def animate(
 
     The camera follows the hips smoothly over a metre grid that stays in place, so that a sliding
     foot is seen. ``against`` (such as the motion before an edit) is shown to the left, or as a ghost
-    behind with ``beside=False``; a motion that ends first holds its last frame. ``view`` is one of
-    those of ``strip``, from where the body faces on average. ``fps`` defaults to the clip's own rate
-    or the largest whole part of it up to 30. ``size`` is the height of the picture, or
-    (width, height) of each figure's panel. ``colour`` and ``body`` are as in ``strip``.
+    behind with ``beside=False``, turned to face the same way if it is another clip; a motion that ends
+    first holds its last frame. ``view`` is one of those of ``strip``, from where the body faces on
+    average. ``fps`` defaults to the clip's own rate or the largest whole part of it up to 30. ``size``
+    is the height of the picture, or (width, height) of each figure's panel. ``colour`` and ``body``
+    are as in ``strip``.
 
     The file appears whole or not at all. Raises ``MienError`` for another file ending, an unknown
     view, a rate or size out of range, or MP4 without PyAV; ``FormatError`` when the file exists and
@@ -76,16 +77,15 @@ class _Panel:
     label: str
     size: tuple[int, int]
     figures: list["_Actor"]
-    axes: Array
     scale: float  # pixels a leg length
     middle: Array  # where the origin is drawn (2,)
 
 
 class _Actor:
-    """A figure over time; solids are made for a run of frames at once."""
+    """A figure over time, seen along ``axes``; solids are made for a run of frames at once."""
 
-    def __init__(self, figure: Figure, *, ghost: bool = False) -> None:
-        self.figure, self.ghost = figure, ghost
+    def __init__(self, figure: Figure, axes: Array, *, ghost: bool = False) -> None:
+        self.figure, self.axes, self.ghost = figure, axes, ghost
         self.path = figure.steady_ground()
         self.solids: Solids | None = None
         self.first = 0
@@ -105,41 +105,36 @@ class _Actor:
 def _panels(
     figure: Figure, before: Figure | None, beside: bool, view: str, size: tuple[int, int]
 ) -> list[_Panel]:
-    axes = view_axes(view, figure.up, _mean_facing(figure))
-    actor = _Actor(figure)
+    axes = view_axes(view, figure.up, figure.mean_facing())
+    actor = _Actor(figure, axes)
     if before is None:
-        groups = [("", [actor])]
-    elif beside:
-        groups = [("original", [_Actor(before)]), ("edited", [actor])]
-    else:
-        groups = [("", [_Actor(before, ghost=True), actor])]
-    return _to_one_scale(groups, axes, size)
+        return _to_one_scale([("", [actor])], size)
+    labels = "original", "edited"
+    if not figure.made_from(before):
+        axes = view_axes(view, before.up, before.mean_facing())
+        labels = before.motion.name or "one clip", figure.motion.name or "another clip"
+    other = _Actor(before, axes, ghost=not beside)
+    groups = [(labels[0], [other]), (labels[1], [actor])] if beside else [("", [other, actor])]
+    return _to_one_scale(groups, size)
 
 
-def _to_one_scale(groups: list[tuple[str, list[_Actor]]], axes: Array, size: tuple[int, int]) -> list[_Panel]:
+def _to_one_scale(groups: list[tuple[str, list[_Actor]]], size: tuple[int, int]) -> list[_Panel]:
     """Return panels in which every figure fits, all to the same scale."""
-    extents = np.concatenate([_extents(actor, axes) for _, actors in groups for actor in actors])
+    extents = np.concatenate([_extents(actor) for _, actors in groups for actor in actors])
     low, high = extents[:, 0].min(axis=0), extents[:, 1].max(axis=0)
     low[1] = min(low[1], 0.0)
     scale = min(np.array(size) / (high - low + 0.4))
     middle = np.array(size) / 2 + scale * np.array([-1.0, 1.0]) * (low + high) / 2
-    return [_Panel(label, size, actors, axes, float(scale), middle) for label, actors in groups]
+    return [_Panel(label, size, actors, float(scale), middle) for label, actors in groups]
 
 
-def _extents(actor: _Actor, axes: Array) -> Array:
+def _extents(actor: _Actor) -> Array:
     """Return low and high reach (N, 2, 2) from the followed point, right and up, in leg lengths."""
-    figure = actor.figure
+    figure, axes = actor.figure, actor.axes
     frames = np.unique(np.linspace(0, len(figure.motion) - 1, 60).round().astype(np.int64))
     solids = figure.solids(frames)
     reach = np.array([solids.bounds(k, axes[:2]) for k in range(len(frames))])
     return (reach - (actor.path[frames] @ axes[:2].T)[:, None]) / figure.size
-
-
-def _mean_facing(figure: Figure) -> Array:
-    """Return the mean direction faced, unit; of a body that turns all round, that of the first frame."""
-    mean = figure.facing.mean(axis=0)
-    length = float(np.linalg.norm(mean))
-    return mean / length if length > 0.1 else figure.facing[0]
 
 
 def _picture(panels: list[_Panel], time: float) -> Array:
@@ -169,7 +164,7 @@ def _panel_picture(panel: _Panel, time: float) -> Array:
     for actor in panel.figures:
         figure, frame = actor.figure, actor.frame(time)
         x, y = (float(v) for v in panel.middle)
-        camera = Camera(panel.axes, actor.path[frame], x, y, panel.scale / figure.size)
+        camera = Camera(actor.axes, actor.path[frame], x, y, panel.scale / figure.size)
         solids, pose = actor.pose(frame)
         if not actor.ghost:
             step = 0.5 * figure.size if figure.metres is None else 0.5 / figure.metres

@@ -8,7 +8,7 @@ import numpy as np
 from ..errors import BodyError
 from ..kinematics.body import Body
 from ..kinematics.fk import end_positions, world
-from ..motion import Motion
+from ..motion import Motion, Skeleton, require_motion
 from ..typing import Array, Integers
 from .mannequin import PALETTE, Soles, mannequin, plain_palette
 from .solids import Solids
@@ -24,7 +24,7 @@ class Figure:
     ``size`` is the leg length (half the height where no body is found), ``floor`` the height of the
     ground along ``up``, ``ground (T, 3)`` the point of the floor below the hips, ``facing (T, 3)`` the
     direction the body faces, smoothed over a second. Lengths in the clip's unit; ``metres`` is metres
-    a unit, or None where it is not known.
+    a unit, or None where it is not known. ``drawn`` are the joints of a stick figure that are drawn.
     """
 
     motion: Motion
@@ -39,6 +39,7 @@ class Figure:
     facing: Array
     palette: Array
     soles: Soles | None = None
+    drawn: Integers | None = None
 
     @classmethod
     def of(
@@ -54,8 +55,8 @@ class Figure:
         ``like`` lends its body, floor and feet to a motion of the same skeleton: an edit moves the
         figure, not the floor, so a foot that sinks is seen to sink.
         """
-        shared = like if like and like.motion.skeleton.names == motion.skeleton.names else None
-        rotations, positions = world(motion)
+        shared = like if like and _same_bones(like.motion.skeleton, motion.skeleton) else None
+        rotations, positions = world(require_motion(motion))
         palette = None if colour is None else plain_palette(colour)
         try:
             body = body or (shared and shared.body) or Body.of(motion)
@@ -81,7 +82,9 @@ class Figure:
     def _sticks(cls, motion: Motion, rotations: Array, positions: Array, palette: Array | None) -> Self:
         """Make a figure of any tree of joints, Y up and facing Z, as BVH has it by habit."""
         up = np.array([0.0, 1.0, 0.0])
-        everything = np.concatenate([positions, end_positions(motion, rotations, positions)], axis=1)
+        drawn = _real_joints(motion, positions)
+        ends = end_positions(motion, rotations, positions)[:, np.isin(motion.skeleton.end_parents, drawn)]
+        everything = np.concatenate([positions[:, drawn], ends], axis=1)
         extent = np.ptp(everything, axis=1).max()
         floor = float(everything[..., 1].min())
         return cls(
@@ -93,21 +96,40 @@ class Figure:
             floor,
             float(extent) / LEGS_TALL or 1.0,
             None,
-            _on_floor(positions[:, 0], up, floor),
+            _on_floor(positions[:, drawn[0]], up, floor),
             np.broadcast_to([0.0, 0.0, 1.0], (len(motion), 3)),
             STICK_PALETTE if palette is None else palette,
+            drawn=drawn,
         )
+
+    def made_from(self, other: "Figure") -> bool:
+        """Return whether ``other`` is this one's original: its reference, or of its skeleton and name."""
+        mine, its = self.motion, other.motion
+        same = mine.skeleton.names == its.skeleton.names and mine.name == its.name
+        return same or mine.reference is its
+
+    def mean_facing(self) -> Array:
+        """Return the mean direction faced, unit; of a body that turns all round, that of the middle frame."""
+        mean = self.facing.mean(axis=0)
+        length = float(np.linalg.norm(mean))
+        return mean / length if length > 0.1 else self.facing[len(self.facing) // 2]
 
     def solids(self, frames: Integers) -> Solids:
         """Return the solids of some frames."""
         rotations, positions = self.rotations[frames], self.positions[frames]
         if self.body and self.soles:
             return mannequin(self.motion, self.body, rotations, positions, self.soles)
-        return _bones(self.motion, rotations, positions, self.size)
+        drawn = np.arange(len(self.motion.skeleton)) if self.drawn is None else self.drawn
+        return _bones(self.motion, rotations, positions, self.size, drawn)
 
     def steady_ground(self) -> Array:
         """Return ``ground`` without the sway of single steps (T, 3), for a camera to follow."""
         return _smooth(self.ground, self.motion.fps)
+
+
+def _same_bones(a: Skeleton, b: Skeleton) -> bool:
+    """Return whether two skeletons have the same joints and bones, in the same unit."""
+    return a.names == b.names and np.allclose(a.offsets, b.offsets, rtol=1e-3, atol=1e-3 * np.ptp(a.offsets))
 
 
 def _facing(positions: Array, body: Body, fps: float) -> Array:
@@ -140,15 +162,37 @@ def _smooth(values: Array, fps: float) -> Array:
     return np.stack(columns, axis=-1).reshape(values.shape)
 
 
-def _bones(motion: Motion, rotations: Array, positions: Array, size: float) -> Solids:
-    """Return a stick from every joint to its parent and to its end sites, with a knob on every joint."""
+def _real_joints(motion: Motion, positions: Array) -> Integers:
+    """Return the joints that are part of the figure: all but a root that stays at the world's origin.
+
+    Exporters put such a root above the hips; the bone from there is as long as the figure is far away. It
+    is told by its one child, which moves against it or is further off than half the rest is large.
+    """
+    keep = np.arange(len(motion.skeleton))
+    while len(keep) > 2:
+        root, rest = keep[0], keep[1:]
+        children = motion.skeleton.children(int(root))
+        away = np.linalg.norm(motion.translations[:, children[0]], axis=1) if len(children) == 1 else None
+        if away is None or np.abs(positions[:, root]).max() > 0.0:
+            break
+        large = float(np.ptp(positions[:, rest], axis=1).max())
+        if not (np.ptp(away) > 0.01 * large or away.max() > 0.5 * large):
+            break
+        keep = rest
+    return keep
+
+
+def _bones(motion: Motion, rotations: Array, positions: Array, size: float, drawn: Integers) -> Solids:
+    """Return a stick from every joint drawn to its parent and its end sites, with a knob on every joint."""
     skeleton = motion.skeleton
-    child = np.flatnonzero(skeleton.parents >= 0)
-    ends = end_positions(motion, rotations, positions)
-    starts = [positions[:, skeleton.parents[child]], positions[:, skeleton.end_parents], positions]
-    stops = [positions[:, child], ends, positions]
-    sticks = len(child) + len(skeleton.end_parents)
-    radii = size * np.repeat([0.6 * STICK, STICK], [sticks, len(skeleton)])
+    child = drawn[np.isin(skeleton.parents[drawn], drawn)]
+    tips = np.flatnonzero(np.isin(skeleton.end_parents, drawn))
+    ends = end_positions(motion, rotations, positions)[:, tips]
+    knobs = positions[:, drawn]
+    starts = [positions[:, skeleton.parents[child]], positions[:, skeleton.end_parents[tips]], knobs]
+    stops = [positions[:, child], ends, knobs]
+    sticks = len(child) + len(tips)
+    radii = size * np.repeat([0.6 * STICK, STICK], [sticks, len(drawn)])
     frames = len(positions)
     return Solids(
         np.concatenate(starts, axis=1),
@@ -157,5 +201,5 @@ def _bones(motion: Motion, rotations: Array, positions: Array, size: float) -> S
         radii,
         np.zeros((frames, 0, 3)),
         np.zeros((frames, 0, 3, 3)),
-        np.repeat([0, 1], [sticks, len(skeleton)]),
+        np.repeat([0, 1], [sticks, len(drawn)]),
     )

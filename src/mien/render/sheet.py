@@ -25,38 +25,38 @@ MARGIN, TALLEST = 12, 0.27  # pixels; tallest figure as a share of the picture's
 
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """One figure in one pose; ``origin (3)`` is the floor point set on the panel's own."""
+    """One figure in one pose, seen along ``axes``; ``origin (3)`` is set on the panel's floor point."""
 
     figure: Figure
     solids: Solids
     pose: int
     origin: Array
+    axes: Array
     ghost: bool = False
 
-    def extent(self, axes: Array) -> Array:
+    def extent(self) -> Array:
         """Return left, right, bottom and top ``(4,)`` seen from the origin, in leg lengths."""
-        low, high = self.solids.bounds(self.pose, axes[:2])
-        from_origin = axes[:2] @ self.origin
+        low, high = self.solids.bounds(self.pose, self.axes[:2])
+        from_origin = self.axes[:2] @ self.origin
         low, high = (low - from_origin) / self.figure.size, (high - from_origin) / self.figure.size
         return np.array([low[0], high[0], low[1], high[1]])
 
-    def camera(self, axes: Array, x: float, y: float, scale: float) -> Camera:
+    def camera(self, x: float, y: float, scale: float) -> Camera:
         """Return the camera that draws this shot; ``scale`` in pixels a leg length."""
-        return Camera(axes, self.origin, x, y, scale / self.figure.size)
+        return Camera(self.axes, self.origin, x, y, scale / self.figure.size)
 
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """Shots seen along the same ``axes``, with a label below."""
+    """Shots on the same floor, the figure's own last, with a label below."""
 
     shots: list[Shot]
-    axes: Array
     label: str
 
     @property
     def level(self) -> bool:
         """Whether the floor is seen edge-on."""
-        return abs(float(self.axes[2] @ self.shots[0].figure.up)) < 0.05
+        return abs(float(self.shots[-1].axes[2] @ self.shots[-1].figure.up)) < 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +84,7 @@ class Layout:
     @classmethod
     def of(cls, rows: list[Row], width: int, titled: bool) -> "Layout":
         """Find the largest scale at which every figure fits its panel, and stack the rows."""
-        extents = [np.array([s.extent(p.axes) for p in row.panels for s in p.shots]) for row in rows]
+        extents = [np.array([s.extent() for p in row.panels for s in p.shots]) for row in rows]
         left = min(float(e[:, 0].min()) for e in extents)
         right = max(float(e[:, 1].max()) for e in extents)
         low = [min(0.0, float(e[:, 2].min())) for e in extents]
@@ -132,7 +132,7 @@ def _draw_row(canvas: Array, row: Row, index: int, layout: Layout) -> None:
         canvas[y : y + 1] *= 0.72
     dark = np.zeros(canvas.shape[:2], np.float32)
     shots = [
-        (shot, shot.camera(panel.axes, x, y, layout.scale))
+        (shot, shot.camera(x, y, layout.scale))
         for panel, x in zip(row.panels, xs, strict=True)
         for shot in panel.shots
     ]

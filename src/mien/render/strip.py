@@ -1,6 +1,7 @@
 """Pictures of a motion at a glance: poses from left to right, seen from several sides."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,11 +33,12 @@ def strip(
     """Return a picture of ``poses`` moments of a motion, evenly spaced in time, one row for each view.
 
     ``against`` (such as the motion before an edit) is drawn as a ghost behind, on the same floor
-    point below the hips and at the same share of its own length. ``views`` are among front, side
-    (from the body's right, so that a walk goes to the right), left, right, back, three-quarter and
-    top; the camera turns with the body. ``travel`` leaves the poses where they really are, seen by
-    one camera. ``colour`` (a name or ``#rrggbb``) makes a figure of one colour instead of blue on
-    the left and orange on the right. ``body`` saves or overrides the search for one, in both motions.
+    point below the hips and at the same share of its own length. The original of ``motion`` is seen by
+    the same camera, another clip from where it faces itself. ``views`` are among front, side (from the
+    body's right, so that a walk goes to the right), left, right, back, three-quarter and top; the
+    camera turns with the body. ``travel`` leaves the poses of both where they really are in the room,
+    seen by one camera. ``colour`` (a name or ``#rrggbb``) makes a figure of one colour instead of blue
+    on the left and orange on the right. ``body`` saves or overrides the search for one, in both motions.
 
     Raises ``MienError`` for an unknown view or fewer than one pose.
     """
@@ -45,7 +47,7 @@ def strip(
     frames = pose_frames(len(motion), poses)
     make = _travelling if travel else _standing
     rows = [Row(view, make(figure, frames, ghost, view)) for view in _views(views)]
-    notes = {"original": GHOST} if ghost else {}
+    notes = {_called(ghost, [figure]): GHOST} if ghost else {}
     return sheet(rows, width=width, title=motion.name if title is None else title, notes=notes)
 
 
@@ -67,13 +69,14 @@ def compare(
     if not motions:
         raise MienError("there is no motion to compare; give at least one, as {label: motion}")
     ghost = None if against is None else Figure.of(against, colour=GHOST)
+    figures = {label: Figure.of(motion, colour=colour, like=ghost) for label, motion in motions.items()}
     rows = []
-    for label, motion in motions.items():
-        figure = Figure.of(motion, colour=colour, like=ghost)
-        frames = pose_frames(len(motion), poses)
+    for label, figure in figures.items():
+        frames = pose_frames(len(figure.motion), poses)
         panels = [panel for view in _views(views) for panel in _standing(figure, frames, ghost, view)]
         rows.append(Row(label, panels))
-    return sheet(rows, width=width, title=title, notes={"original": GHOST} if ghost else {})
+    notes = {_called(ghost, list(figures.values())): GHOST} if ghost else {}
+    return sheet(rows, width=width, title=title, notes=notes)
 
 
 def pose_frames(count: int, poses: int) -> Integers:
@@ -94,6 +97,13 @@ def _views(views: Sequence[str]) -> list[str]:
     return names
 
 
+def _called(ghost: Figure, figures: Sequence[Figure]) -> str:
+    """Return what the picture calls the ghost."""
+    if all(figure.made_from(ghost) for figure in figures):
+        return "original"
+    return ghost.motion.name or "another clip"
+
+
 def _standing(figure: Figure, frames: Integers, ghost: Figure | None, view: str) -> list[Panel]:
     """Return one panel a pose, without the travel, seen as the body faces at that moment."""
     solids = figure.solids(frames)
@@ -101,32 +111,34 @@ def _standing(figure: Figure, frames: Integers, ghost: Figure | None, view: str)
     shade = ghost.solids(behind) if ghost else None
     panels = []
     for k, frame in enumerate(frames):
-        shots = [Shot(figure, solids, k, figure.ground[frame])]
-        if ghost and shade:
-            shots.insert(0, Shot(ghost, shade, k, ghost.ground[behind[k]], ghost=True))
         axes = view_axes(view, figure.up, figure.facing[frame])
-        panels.append(Panel(shots, axes, f"{frame * figure.motion.frame_time:.2f} s"))
+        shots = [Shot(figure, solids, k, figure.ground[frame], axes)]
+        if ghost and shade:
+            if not figure.made_from(ghost):
+                axes = view_axes(view, ghost.up, ghost.facing[behind[k]])
+            shots.insert(0, Shot(ghost, shade, k, ghost.ground[behind[k]], axes, ghost=True))
+        panels.append(Panel(shots, f"{frame * figure.motion.frame_time:.2f} s"))
     return panels
 
 
 def _travelling(figure: Figure, frames: Integers, ghost: Figure | None, view: str) -> list[Panel]:
-    """Return one panel with every pose where it is, the far ones drawn first."""
-    facing = figure.facing.mean(axis=0)
-    length = float(np.linalg.norm(facing))
-    facing = figure.facing[len(figure.facing) // 2] if length < 0.1 else facing / length
-    axes = view_axes(view, figure.up, facing)
-    shots = _in_place(figure, frames, figure.ground[len(figure.ground) // 2], axes, False)
+    """Return one panel with every pose where it is in the room, the far ones drawn first."""
+    axes, origin = view_axes(view, figure.up, figure.mean_facing()), figure.ground[len(figure.ground) // 2]
+    shots = _in_place(figure, frames, origin, axes, False)
     if ghost:
+        # The figure's unit of length in the ghost's.
+        unit = figure.metres / ghost.metres if figure.metres and ghost.metres else 1.0
+        ghost = replace(ghost, size=unit * figure.size)
         behind = _same_share(figure, frames, ghost)
-        shots = _in_place(ghost, behind, ghost.ground[len(ghost.ground) // 2], axes, True) + shots
+        shots = _in_place(ghost, behind, unit * origin, axes, True) + shots
     first, last = (figure.motion.frame_time * frames[i] for i in (0, -1))
-    return [Panel(shots, axes, f"{first:.2f} to {last:.2f} s")]
+    return [Panel(shots, f"{first:.2f} to {last:.2f} s")]
 
 
 def _in_place(figure: Figure, frames: Integers, origin: Array, axes: Array, ghost: bool) -> list[Shot]:
     solids = figure.solids(frames)
     far_first = np.argsort(figure.ground[frames] @ axes[2], kind="stable")
-    return [Shot(figure, solids, int(k), origin, ghost=ghost) for k in far_first]
+    return [Shot(figure, solids, int(k), origin, axes, ghost=ghost) for k in far_first]
 
 
 def _same_share(figure: Figure, frames: Integers, other: Figure) -> Integers:

@@ -82,7 +82,7 @@ def _mp4(pictures: Iterator[Array], fps: float) -> bytes:
     try:
         import av
     except ImportError as error:
-        raise MienError('MP4 needs PyAV: pip install "mien[video]" (or write a .gif)') from error
+        raise MienError("MP4 needs PyAV: pip install av (or write a .gif)") from error
     out = BytesIO()
     first = next(pictures)
     with av.open(out, "w", format="mp4", options={"fflags": "+bitexact"}) as film:
