@@ -103,7 +103,8 @@ def _damage(job: Job, motion: Motion) -> list[str]:
         load(job.source, fps=job.read.get("fps"))
     except FormatError as error:
         wrong = re.sub(r" \(use --salvage[^)]*\)", "", str(error))
-        return [f"salvaged {len(motion)} frames of a damaged clip: {wrong}"]
+        what = wrong.removeprefix(job.source.name).lstrip(": ")
+        return [f"salvaged {len(motion)} frames of a damaged clip ({what})"]
     return []
 
 

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 from PIL import Image
-from typer.testing import Result
+from typer.testing import CliRunner, Result
 
 import mien
+from mien.cli.app import app
 from mien.emotion.files import parse_recipe, read_recipe
 from mien.emotion.presets import PRESETS, preset
 
@@ -125,3 +126,24 @@ def test_version_and_help(run: Run) -> None:
     for command in ("demo", "info", "edit", "presets", "diff", "render", "pose", "doctor"):
         assert re.search(rf"^  {command} ", shown, re.MULTILINE)
         assert run(command, "--help").exit_code == 0
+
+
+@pytest.mark.parametrize("command", ["edit", "render", "pose"])
+def test_help_on_a_narrow_terminal_cuts_nothing(
+    run: Run, monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    shown = CliRunner().invoke(app, [command, "--help"]).stdout
+    assert max(map(len, shown.splitlines())) <= 80
+    assert "…" not in shown
+    assert " ..." not in shown
+    assert "`" not in shown
+
+
+@pytest.mark.parametrize("width", [60, 100])
+def test_tables_in_a_pipe_keep_to_the_width(monkeypatch: pytest.MonkeyPatch, width: int) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    lines = CliRunner().invoke(app, ["presets"]).stdout.splitlines()
+    assert width - 12 < max(map(len, lines)) <= width
+    assert all(line == line.rstrip() for line in lines)
+    assert sum("s0/NAME: as in K. Förger's thesis (2011)" in line for line in lines) == 1

@@ -1,9 +1,12 @@
 import hashlib
 import json
 import os
+import re
 import tomllib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -181,3 +184,116 @@ def test_nothing_half_written_is_left_behind(folder: Path, run: Run) -> None:
     before = files(folder)
     assert run("edit", "*.bvh", "-e", "sad", "--no-sidecar").exit_code == 0
     assert files(folder) - before == {"walk_sad.bvh", "brisk_sad.bvh"}, "no temporary file stays"
+
+
+def replayed(run: Run, made: str, *flags: object) -> bytes:
+    """Return the clip that the recipe beside ``made`` makes of the walk again."""
+    result = run("edit", "walk.bvh", "-r", f"{made}.recipe.toml", "-o", "again.bvh", "--force", *flags)
+    assert result.exit_code == 0, result.stderr
+    return Path("again.bvh").read_bytes()
+
+
+def test_a_sidecar_replays_with_the_rate_that_was_given(folder: Path, run: Run) -> None:
+    assert run("edit", "walk.bvh", "-e", "sad", "--fps", 40, "-o", "made.bvh").exit_code == 0
+    made = Path("made.bvh").read_bytes()
+    assert replayed(run, "made.bvh") == made
+    assert replayed(run, "made.bvh", "--fps", 30) != made, "flags go before what the sidecar says"
+    assert mien.load("again.bvh").fps == pytest.approx(30)
+
+
+def test_a_sidecar_replays_with_the_map_that_was_given(folder: Path, run: Run) -> None:
+    Path("map.toml").write_text('[roles]\nchest = "Spine1"\n')
+    Path("other.toml").write_text('[roles]\nchest = "Chest"\n')
+    assert run("edit", "walk.bvh", "-e", "sad", "--map", "map.toml", "-o", "made.bvh").exit_code == 0
+    made = Path("made.bvh").read_bytes()
+    Path("map.toml").unlink()
+    assert replayed(run, "made.bvh") == made
+    assert replayed(run, "made.bvh", "--map", "other.toml") != made
+
+
+def test_a_sidecar_replays_what_was_salvaged_and_says_so(folder: Path, run: Run) -> None:
+    text = Path("walk.bvh").read_text()
+    Path("walk.bvh").write_text(text[: int(0.8 * len(text))])
+    assert run("edit", "walk.bvh", "-e", "sad").exit_code == 2
+    result = run("edit", "walk.bvh", "-e", "sad", "--salvage")
+    assert re.fullmatch(
+        r"mien: note: walk\.bvh: salvaged \d+ frames of a damaged clip \(line \d+: .+\)\n", result.stderr
+    )
+    assert "--salvage" not in result.stderr
+    assert replayed(run, "walk_sad.bvh") == Path("walk_sad.bvh").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "wrong", ['fps = "fast"', "fps = true", 'salvage = "no"', "roles = 3", "roles = {a = 1}"]
+)
+def test_a_sidecar_with_wrong_reading_options_is_refused(folder: Path, run: Run, wrong: str) -> None:
+    Path("made.toml").write_text(f'version = 1\nname = "x"\n[provenance]\n{wrong}\n')
+    result = run("edit", "walk.bvh", "-r", "made.toml")
+    assert result.exit_code == 2
+    assert result.stderr.startswith("mien: made.toml: provenance.")
+
+
+def test_a_rate_that_contradicts_the_motion_is_noted(folder: Path, run: Run) -> None:
+    result = run("edit", "walk.bvh", "-e", "sad", "--fps", 300)
+    assert (result.exit_code, result.stdout) == (0, "walk_sad.bvh\n")
+    assert result.stderr.startswith("mien: note: walk.bvh: at 300 frames a second a foot takes")
+    data = json.loads(run("edit", "walk.bvh", "-e", "sad", "--fps", 300, "--force", "--json").stdout)
+    assert data[0]["notes"][0].startswith("at 300 frames a second")
+
+
+def test_a_bit_less_gets_a_name_of_its_own(folder: Path, run: Run) -> None:
+    assert run("edit", "walk.bvh", "-e", "sad", "--no-sidecar").stdout == "walk_sad.bvh\n"
+    less = ["edit", "walk.bvh", "-e", "SAD", "--no-sidecar", "--strength", 0.5]
+    assert run(*less).stdout == "walk_sad_0.5.bvh\n"
+    assert run(*less, "--parts", "arms", "--span", "0,1").stdout == "walk_sad_0.5_arms_0-1s.bvh\n"
+    write_recipe(Recipe("worn out", (Step("posture", {"trunk": 10.0}),)), folder / "mine.toml")
+    assert run("edit", "walk.bvh", "-r", "mine.toml").stdout == "walk_worn-out.bvh\n"
+
+
+def test_dry_run_shows_the_steps_as_they_will_be_done(folder: Path, run: Run) -> None:
+    """What is shown is what the history holds afterwards, and an output that exists is marked."""
+    flags = [
+        "edit",
+        "walk.bvh",
+        "-e",
+        "sad",
+        "--strength",
+        0.5,
+        "--parts",
+        "arms",
+        "--span",
+        "0.2,1",
+        "--ease",
+        0.1,
+    ]
+    planned = json.loads(run(*flags, "-n", "--json").stdout)
+    assert planned["files"][0]["exists"] is False
+    text = run(*flags, "-n").stdout
+    assert "strength 0.5; parts arms; 0.2 to 1 s, ease 0.1 s" in text
+    assert run(*flags, "-o", "less.bvh").exit_code == 0
+    done = read_recipe("less.bvh.recipe.toml").steps
+    assert all(step.ease == 0.1 for step in done if step.span)
+    known = [Step(**step) for step in planned["steps"]]
+    assert [replace(s, parameters={}) for s in known] == [replace(s, parameters={}) for s in done]
+    again = run(*flags, "-o", "less.bvh", "-n")
+    assert again.exit_code == 0
+    assert "walk.bvh -> less.bvh (exists: needs --force)" in again.stdout
+    assert "(exists: will be replaced)" in run(*flags, "-o", "less.bvh", "-n", "--force").stdout
+    assert "nothing is changed" in run("edit", "walk.bvh", "-e", "sad", "--strength", 0, "-n").stdout
+
+
+def test_one_clip_to_stdout(folder: Path, process: Callable[..., Any]) -> None:
+    before = files(folder)
+    done = process("edit", "walk.bvh", "-e", "sad", "-o", "-", cwd=folder)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert files(folder) == before
+    assert process("edit", "walk.bvh", "-e", "sad", cwd=folder).returncode == 0
+    assert done.stdout == Path("walk_sad.bvh").read_text()
+
+
+def test_a_folder_is_edited_twice_without_its_results(folder: Path, run: Run) -> None:
+    assert run("edit", ".", "-e", "sad").exit_code == 0
+    result = run("edit", ".", "-e", "tired")
+    assert result.stdout.split() == ["brisk_tired.bvh", "deeper/tired_walk_tired.bvh", "walk_tired.bvh"]
+    assert "passed over 3 clips that mien made" in result.stderr
+    assert run("edit", "walk_sad.bvh", "-e", "tired").stdout == "walk_sad_tired.bvh\n"

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -23,6 +24,18 @@ BAD_USAGE = {
     "unknown emotion": (["edit", "walk.bvh", "-e", "sda"], "did you mean 'sad'?"),
     "two sources": (["edit", "walk.bvh", "-e", "sad", "-r", "x.toml"], "not both"),
     "missing recipe": (["edit", "walk.bvh", "-r", "x.toml"], "x.toml: there is no such file"),
+    "two emotions": (["edit", "walk.bvh", "-e", "sad", "-e", "tired"], "one emotion, not sad and tired"),
+    "ease alone": (["edit", "walk.bvh", "-e", "sad", "--ease", "1"], "give --span too"),
+    "ease below 0": (["edit", "walk.bvh", "-e", "sad", "--span", "0,1", "--ease", "-1"], "0 seconds or more"),
+    "clip as recipe": (["edit", "walk.bvh", "-r", "brisk.bvh"], "brisk.bvh: is a clip; a recipe is"),
+    "thesis's emotion": (["edit", "walk.bvh", "-e", "s0/sda"], "did you mean 's0/sad'?"),
+    "s0 in short": (["edit", "walk.bvh", "-e", "xx"], "weak), and s0/NAME for the thesis"),
+    "several to stdout": (["edit", "*.bvh", "-e", "sad", "-o", "-"], "takes one clip"),
+    "picture to stdout": (["render", "walk.bvh", "-o", "-"], "takes one clip"),
+    "pose to stdout": (["pose", "walk.bvh", "brisk.bvh", "-o", "-"], "written to a file"),
+    "missing ghost": (["render", "walk.bvh", "--against", "wlak.bvh"], "wlak.bvh: there is no such file"),
+    "missing pose": (["edit", "walk.bvh", "--posture-pose", "p.toml"], "p.toml: there is no such file"),
+    "file as folder": (["render", "walk.bvh", "-o", "walk.bvh/x.png"], "walk.bvh is a file, not a folder"),
     "unknown flag": (["edit", "walk.bvh", "--posture-hed", "3"], "--posture-head"),
     "no number": (["edit", "walk.bvh", "--posture-head", "low"], "--posture-head"),
     "out of range": (["edit", "walk.bvh", "--posture-head", "999"], "degrees, got 999"),
@@ -102,6 +115,42 @@ def test_a_folder_that_turns_out_to_be_a_file_is_told_for_each_clip(folder: Path
     done = list(edit_files(todo, workers=jobs))
     assert all(outcome.error.startswith("out: ") and not outcome.unexpected for outcome in done)
     assert Path("out").read_text() == "mine"
+
+
+def test_errors_begin_with_the_path_as_it_was_given(folder: Path, run: Run) -> None:
+    bad = Path("deeper/bad.bvh")
+    bad.write_bytes(RUBBISH["cut header"])
+    commands = (["edit", "deeper", "-e", "sad"], ["info", "deeper"], ["diff", bad, bad], ["render", bad])
+    for command in commands:
+        assert f"mien: {bad}" in run(*command).stderr, command
+
+
+def test_json_tells_also_what_was_wrong_with_the_call(folder: Path, run: Run) -> None:
+    for command in (
+        ["edit", "none.bvh", "-e", "sad"],
+        ["edit", "walk.bvh"],
+        ["diff", "walk.bvh", "none.bvh"],
+    ):
+        result = run(*command, "--json")
+        error = json.loads(result.stdout)["error"]
+        assert (result.exit_code, result.stderr) == (2, f"mien: {error}\n")
+
+
+def test_a_figure_without_a_body_is_drawn_and_said_to_be_sticks(folder: Path, run: Run) -> None:
+    Path("box.bvh").write_bytes(RUBBISH["no body"])
+    result = run("render", "box.bvh", "-o", "box.png")
+    assert (result.exit_code, Path("box.png").exists()) == (0, True)
+    assert re.match(
+        r"mien: note: box\.bvh is drawn as sticks: not found in .+ \(a map file helps", result.stderr
+    )
+
+
+def test_a_clip_or_a_pose_given_as_recipe(folder: Path, run: Run) -> None:
+    assert run("edit", "walk.bvh", "-e", "sad").exit_code == 0
+    result = run("edit", "walk.bvh", "--recipe", "walk_sad.bvh")
+    assert result.stderr == "mien: walk_sad.bvh: is a clip; its recipe is walk_sad.bvh.recipe.toml\n"
+    assert run("pose", "walk.bvh", "brisk.bvh", "-o", "pose.toml").exit_code == 0
+    assert "pose.toml: is a pose file" in run("edit", "walk.bvh", "--recipe", "pose.toml").stderr
 
 
 def test_one_bad_clip_among_good_ones(folder: Path, run: Run) -> None:

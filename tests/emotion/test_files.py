@@ -149,6 +149,11 @@ WRONG = {
         head(STEP + 'edit = "posture"\n' + STEP + 'edit = "posture"\nhaed = 3'),
         ["step 2", "posture", "'haed'", "did you mean 'head'"],
     ),
+    "misspelt key of a step": (
+        head(STEP + 'edit = "posture"\nstrenght = 0.5'),
+        ["step 1", "posture", "did you mean 'strength'", "ease", "parts", "span"],
+    ),
+    "pose file": ("[turns]\nhead = [25, 0, 0]", ["pose file", "--posture-pose"]),
     "out of range": (head(STEP + 'edit = "posture"\nhead = 999'), ["step 1", "head", "degrees", "999"]),
     "wrong type": (head(STEP + 'edit = "posture"\nhead = "low"'), ["head", "number", "low"]),
     "strength": (head(STEP + 'edit = "posture"\nstrength = 3'), ["strength", "0 to 2", "3"]),

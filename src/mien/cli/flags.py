@@ -3,7 +3,6 @@
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from textwrap import shorten
 from typing import Annotated, Any
 
 import typer
@@ -118,7 +117,7 @@ def _limits(about: Param) -> str:
 
 
 def _panel(edit: Edit) -> str:
-    return shorten(f"{edit.name}: {_plain(edit.summary)}", 74, placeholder=" ...")
+    return f"{edit.name}: {_plain(edit.summary)}"
 
 
 def _plain(text: str) -> str:

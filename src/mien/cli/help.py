@@ -6,7 +6,7 @@ from typer.core import TyperCommand
 
 
 class Command(TyperCommand):
-    """A command whose help lists the options under the headings they were given."""
+    """A command whose help lists the options in groups, named ``heading`` or ``heading: what it is``."""
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write arguments and options, each group under its heading."""
@@ -17,6 +17,9 @@ class Command(TyperCommand):
             if record:
                 heading = getattr(parameter, "rich_help_panel", None) or usual
                 groups.setdefault(heading, []).append(record)
-        for heading, records in groups.items():
+        for group, records in groups.items():
+            heading, _, about = group.partition(": ")
             with formatter.section(heading):
+                if about:
+                    formatter.write_text(about)
                 formatter.write_dl(records)

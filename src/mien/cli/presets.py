@@ -31,4 +31,4 @@ def presets(
         return
     rows = [(word, recipe.description, recipe.evidence) for word, recipe in recipes]
     show_table(("emotion", "what it does", "evidence"), rows, numbers=3)
-    typer.echo("\ns0/NAME: as in the thesis that mien began from, K. Förger (2011), with its means only")
+    typer.echo("\ns0/NAME: as in K. Förger's thesis (2011)")

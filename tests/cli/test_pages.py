@@ -1,0 +1,78 @@
+"""What the documents show is done as they show it: commands line by line, Python, maps and recipes."""
+
+import contextlib
+import io
+import os
+import re
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from typer.testing import Result
+
+import mien
+from mien import samples
+from mien.emotion.files import parse_recipe
+from mien.kinematics.roles import read_map
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+FOR_THE_SHELL = ("python3", "source")  # installing is tested by scripts/check.py
+
+Run = Callable[..., Result]
+
+
+def blocks(page: Path, language: str) -> list[str]:
+    return re.findall(
+        rf"^```{language}\n(.*?)^```", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
+    )
+
+
+def done(line: str, run: Run) -> None:
+    """Do one line of a command block in the current folder."""
+    words = shlex.split(line.removeprefix("$ "), comments=True)
+    if words[0] == "cd":
+        os.chdir(words[1])
+    elif words[0] not in FOR_THE_SHELL:
+        assert words[0] == "mien", line
+        end = words.index(">") if ">" in words else len(words)
+        result = run(*words[1:end])
+        assert result.exit_code == 0, f"{line}\n{result.output}"
+        for file in words[end + 1 :]:
+            Path(file).write_text(result.stdout, encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["README.md", "docs/quickstart.md", "docs/presets.md"])
+def test_commands_work_line_by_line_and_python_twice(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = ROOT / name
+    if name == "README.md":
+        run("demo")  # the last words of the line that installs mien
+    if name == "docs/presets.md":
+        mien.save(samples.walk(seconds=1.0, fps=30.0).motion, "walk.bvh")
+        Path("worn.toml").write_text(blocks(page, "toml")[0])
+    for block in blocks(page, "console"):
+        for line in block.splitlines():
+            done(line, run)
+    for _ in range(2):
+        names: dict[str, object] = {}
+        for block in blocks(page, "python"):
+            with contextlib.redirect_stdout(io.StringIO()):
+                exec(block, names)
+
+
+def test_maps_and_recipes_are_such(tmp_path: Path) -> None:
+    seen = {"map": 0, "recipe": 0}
+    for page in PAGES:
+        for block in blocks(page, "toml"):
+            if "[[steps]]" in block:
+                seen["recipe"] += 1
+                assert parse_recipe(block).steps
+            else:
+                seen["map"] += 1
+                (tmp_path / "body.toml").write_text(block, encoding="utf-8")
+                assert read_map(tmp_path / "body.toml")
+    assert min(seen.values()) > 0
