@@ -75,7 +75,7 @@ def _options(edit: Edit) -> list[inspect.Parameter]:
     if not _works_as_it_is(edit):
         return found
     about = typer.Option(
-        flag_name(edit.name), help=_plain(edit.summary), rich_help_panel=_panel(edit), show_default=False
+        flag_name(edit.name), help="do this", rich_help_panel=_panel(edit), show_default=False
     )
     return [_keyword(edit.name, "", bool | None, about), *found]
 
