@@ -149,3 +149,31 @@ def test_a_walk_on_the_spot_stays_on_the_spot(cadence):
     out = foot_plant(path_length(spot, mid=0.5), original=spot)
     moved = world(out)[1][:, hips] - world(spot)[1][:, hips]
     assert np.abs(moved @ Body.of(spot).forward).max() < 0.02
+
+
+@pytest.mark.parametrize("name", ["walk", "turn"])
+@pytest.mark.parametrize(
+    "step",
+    [
+        Step("path_length", {"mid": 1.4}),
+        Step("posture", {"lean": 10}),
+        Step("posture", {"hips_height": -0.08, "legs": 3}),
+    ],
+)
+def test_planting_twice_is_planting_once(name, step):
+    motion = samples.SAMPLES[name](seconds=3.0).motion
+    once = mien.apply(motion, [step, Step("foot_plant")])
+    twice = mien.apply(once, [Step("foot_plant")])
+    moved = np.linalg.norm(world(twice)[1] - world(once)[1], axis=-1).max() / Body.of(motion).leg_length
+    assert moved < 0.01
+
+
+def test_two_presets_one_after_the_other_travel_as_far_as_planted_once_at_the_end():
+    motion = samples.walk(seconds=3.0).motion
+    hips = Body.of(motion).roles["hips"]
+    steps = [*mien.preset("sad").steps, *mien.preset("tired").steps]
+    bare = [step for step in steps if step.edit != "foot_plant"]
+    one, other = (mien.apply(motion, some) for some in (steps, [*bare, Step("foot_plant")]))
+    distance = [np.linalg.norm(world(m)[1][-1, hips] - world(m)[1][0, hips]) for m in (one, other)]
+    assert distance[0] == pytest.approx(distance[1], rel=0.03)
+    assert soles(one, Body.of(motion)).min() > soles(motion, Body.of(motion)).min() - 0.2

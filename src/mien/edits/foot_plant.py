@@ -115,20 +115,25 @@ def _shifted(pose: _Pose, shift: Array, body: Body) -> _Pose:
 def _hips_shift(before: _Pose, after: _Pose, contacts: Contacts, body: Body, travel: bool) -> Array:
     """Return how far the hips must move (T, 3): along the ground by the slip, upward to reach the floor."""
     hips, dt = body.roles["hips"], after.motion.frame_time
-    own = after.positions[:, hips] - before.positions[:, hips]  # what the edit itself did to the hips
-    slip = before.feet - after.feet + own[:, None, None]  # how far the foot went astray, seen from the hips
+    own = after.positions[:, hips] - before.positions[:, hips]  # what was done to the hips before
+    astray = before.feet - after.feet
+    slip = astray + own[:, None, None]  # the same seen from the hips
     if not contacts.points.any() or not np.abs(slip).max() > 1e-9 * body.leg_length:
         return np.zeros((len(slip), 3))
     weight = _settled(contacts, dt)
     total = weight.sum(axis=(1, 2))
     known = total > 0
     share = weight / np.where(known, total, 1.0)[:, None, None]
-    rate = np.einsum("tfp,tfpi->ti", share, np.gradient(slip, axis=0)) if len(slip) > 1 else np.zeros((1, 3))
+    rate = (
+        np.einsum("tfp,tfpi->ti", share, np.gradient(astray, axis=0)) if len(slip) > 1 else np.zeros((1, 3))
+    )
     rate = smooth(hold_gaps(rate, known), sigma=0.04 / dt)
     on_belt = _on_belt(before, weight, body)
     along = np.cumsum(rate, axis=0) - rate[0] if travel and not on_belt else np.zeros_like(rate)
     along -= (along @ body.up)[:, None] * body.up
-    rise = np.einsum("tfp,tfpi->ti", share, slip) @ body.up
+    needed, seen = (np.einsum("tfp,tfpi->ti", share, way) @ body.up for way in (astray, slip))
+    # Hips that were lowered on purpose stay low; hips that were repaired before are not moved twice.
+    rise = np.where(needed * seen > 0, np.sign(seen) * np.minimum(np.abs(needed), np.abs(seen)), 0.0)
     return along + smooth(hold_gaps(rise, known), sigma=0.04 / dt)[:, None] * body.up
 
 
