@@ -34,6 +34,13 @@ def test_clips_without_a_still_have_none(name, fps):
     assert lead_in(samples.SAMPLES[name](fps=fps).motion) == 0
 
 
+@pytest.mark.parametrize("name", ["punch", "jump"])
+@pytest.mark.parametrize("fps", [30.0, 120.0])
+def test_a_clip_cut_out_of_a_fast_movement_has_none(name, fps):
+    motion = samples.SAMPLES[name](fps=fps).motion
+    assert [start for start in range(len(motion) - 10) if lead_in(motion[start:])] == []
+
+
 @pytest.mark.parametrize("frames", [1, 2, 3, 5])
 def test_short_clips_have_none(frames):
     assert lead_in(samples.walk().motion[:frames]) == 0

@@ -11,13 +11,17 @@ from ..rotations import quaternion
 
 LONGEST = 0.25  # seconds
 JUMP = 0.026  # radians, on average over the joints: one and a half degrees from one frame to the next
+RUSH = 5.24  # radians a second, on average over the joints: 300 degrees, faster than bodies move
+NEARER = 0.75  # the first pose turns joints by less than this share of what any later pose does
 
 
 def lead_in(motion: Motion) -> int:
     """Return how many frames at the start belong to a still such as a T-pose, 0 where there is none.
 
     Such frames are left by a jump of more than one and a half degrees on average over the joints, by turns
-    more than twice as fast as nine in ten later frames; they lie within the first quarter second.
+    more than twice as fast as nine in ten later frames; they lie within the first quarter second. A clip
+    cut out of a fast movement starts like that too, so the jump must be faster than bodies move, or start
+    from a pose much nearer to the rest pose than all that follows.
     """
     within = int(LONGEST / motion.frame_time) + 1
     if len(motion) < within + 4:
@@ -26,8 +30,18 @@ def lead_in(motion: Motion) -> int:
     same = np.abs(np.einsum("tji,tji->tj", q[1:], q[:-1]))
     turn = 2.0 * np.arccos(np.minimum(same, 1.0)).mean(axis=1)
     rushed = turn[:within] > max(2.0 * float(np.percentile(turn[within:], 90)), 0.25 * JUMP)
+    if not rushed[0] or turn[0] <= JUMP:
+        return 0
     mostly = np.cumsum(rushed) >= 0.75 * np.arange(1, within + 1)
-    return int(np.flatnonzero(rushed & mostly)[-1]) + 1 if rushed[0] and turn[0] > JUMP else 0
+    frames = int(np.flatnonzero(rushed & mostly)[-1]) + 1
+    return frames if turn[0] > RUSH * motion.frame_time or _starts_at_rest(motion, frames) else 0
+
+
+def _starts_at_rest(motion: Motion, frames: int) -> bool:
+    """Say whether the first pose is much nearer to the rest pose than all from ``frames`` on; roots aside."""
+    below = motion.skeleton.parents >= 0
+    away = np.arccos(np.minimum(np.abs(motion.rotations[:, below, 3]), 1.0)).sum(axis=1)
+    return bool(away[0] < NEARER * away[frames:].min())
 
 
 def without_lead_in(motion: Motion, frames: int) -> Motion:
