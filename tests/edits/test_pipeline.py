@@ -161,6 +161,12 @@ def test_a_span_without_ease_is_a_switch(clip: Motion) -> None:
     np.testing.assert_array_equal(after.translations[:, 0, 0], [0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0])
 
 
+def test_the_frames_on_the_borders_of_a_span_without_ease_are_inside(clip: Motion) -> None:
+    """Times are sums of tenths: 3 * 0.1 and 6 * 0.1 are a last digit above 0.3 and 0.6."""
+    after = apply(clip, [Step("shift", span=(0.3, 0.6), ease=0.0)])
+    np.testing.assert_array_equal(after.translations[:, 0, 0], [0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0])
+
+
 def test_an_ease_longer_than_half_the_span_is_cut_to_it(clip: Motion) -> None:
     after = apply(clip, [Step("shift", span=(0.2, 0.6), ease=9.0)])
     assert after.translations[4, 0, 0] == 1.0

@@ -113,8 +113,9 @@ def _weights(motion: Motion, step: Step, wanted: list[int] | None) -> Array:
         return np.broadcast_to(joints, (len(motion), len(joints)))
     start, end = step.span
     ease = min(step.ease, 0.5 * (end - start))
-    into = np.clip((motion.times - start) / ease, 0, 1) if ease else motion.times >= start
-    out = np.clip((end - motion.times) / ease, 0, 1) if ease else motion.times <= end
+    slack = 1e-6 * motion.frame_time  # frames on the border are inside: 3 * 0.1 s is above 0.3 s
+    into = np.clip((motion.times - start) / ease, 0, 1) if ease else motion.times >= start - slack
+    out = np.clip((end - motion.times) / ease, 0, 1) if ease else motion.times <= end + slack
     shown = np.minimum(into, out)
     shown = shown * shown * shown * (shown * (6 * shown - 15) + 10)  # no jump in speed or acceleration
     return shown[:, None] * joints
