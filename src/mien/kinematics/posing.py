@@ -25,7 +25,8 @@ from .heading import hips_frame
 from .poses import HEIRS, Pose, anatomical_axes, neutral_world, segment_joints
 
 Method = Literal["anatomical", "additive", "body_fixed"]
-FULL_BEND = np.radians(150.0)
+# Elbows bend to some 150 degrees, but a posture is not there to fold them: what is bent stays as it is.
+MOST_BEND = np.radians(120.0)
 # Sine of the bend from which the bones' own plane counts more as the hinge than what is usual. Nearly
 # straight arms show their carrying angle and capture noise in that plane, not their hinge.
 CLEAR_BEND = 0.5
@@ -147,7 +148,7 @@ def _swing(seen: Array, turn: Array, weight: Array, bone: Array) -> Array:
 
 
 def _bend(seen: Array, turn: Array, weight: Array, bone: Array, above: Array, hinge: Array) -> Array:
-    """Bend about the joint's own hinge, softly stopped at straight and at full bend.
+    """Bend about the joint's own hinge, softly stopped at straight and at 120 degrees.
 
     The hinge is the normal of the plane of the two bones where the bend is clear; towards straight it
     becomes the clip's usual one, and in clips without a clear bend the plain sideways ``hinge``.
@@ -159,7 +160,7 @@ def _bend(seen: Array, turn: Array, weight: Array, bone: Array, above: Array, hi
     axis = _unit(clear + CLEAR_BEND * usual)
     angle = np.arctan2(np.einsum("ti,ti->t", normal, axis), bent @ above)
     wanted = weight * float(turn @ hinge)
-    room = np.where(wanted < 0, angle, FULL_BEND - angle)
+    room = np.where(wanted < 0, angle, MOST_BEND - angle)
     bend = np.sign(wanted) * soft_stop(np.abs(wanted), np.maximum(room, 0.0))
     rest = quaternion.exp(weight[:, None] * (turn - (turn @ hinge) * hinge))
     return quaternion.multiply(quaternion.multiply(quaternion.exp(axis * bend[:, None]), seen), rest)
