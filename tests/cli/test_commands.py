@@ -147,3 +147,19 @@ def test_tables_in_a_pipe_keep_to_the_width(monkeypatch: pytest.MonkeyPatch, wid
     assert width - 12 < max(map(len, lines)) <= width
     assert all(line == line.rstrip() for line in lines)
     assert sum("s0/NAME: as in K. Förger's thesis (2011)" in line for line in lines) == 1
+
+
+def test_render_goes_on_after_a_bad_clip(folder: Path, run: Run) -> None:
+    (folder / "bad.bvh").write_text("rubbish", encoding="utf-8")
+    done = run("render", "walk.bvh", "bad.bvh", "-o", "pictures/", "--poses", "1")
+    assert done.exit_code == 1
+    assert len(list((folder / "pictures").glob("*.png"))) == 1
+    assert "bad.bvh" in done.stderr
+
+
+def test_a_recipe_that_leaves_the_feet_is_noted(folder: Path, run: Run) -> None:
+    text = 'version = 1\nname = "own"\n[[steps]]\nedit = "posture"\nhead = 10.0\n'
+    (folder / "own.toml").write_text(text, encoding="utf-8")
+    done = run("edit", "walk.bvh", "--recipe", "own.toml", "-n")
+    assert "--foot-plant adds that step" in done.stderr
+    assert "--foot-plant adds" not in run("edit", "walk.bvh", "-r", "own.toml", "-n", "--foot-plant").stderr

@@ -176,6 +176,7 @@ def _recipe(
     from dataclasses import replace
 
     from ..edits import pipeline
+    from ..edits.registry import EDITS
     from ..emotion.resolve import resolve
     from ..recipe import Recipe
     from .flags import compose
@@ -197,6 +198,9 @@ def _recipe(
     steps = compose(recipe.steps, flags, foot_plant=foot_plant)
     for step in steps:
         pipeline.check(step)
+    kinds = {EDITS[step.edit].kind for step in steps}
+    if path and foot_plant is None and "pose" in kinds and "repair" not in kinds:
+        note(f"mien: note: {path} puts no feet back on the floor; --foot-plant adds that step")
     return replace(recipe, steps=steps)
 
 

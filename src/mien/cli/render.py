@@ -7,7 +7,7 @@ import typer
 
 from ..errors import BodyError, MienError
 from . import arguments as a
-from .report import note, progress
+from .report import complain, located, note, progress
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -59,8 +59,14 @@ def render(
         refuse_existing(targets)
     other = a.opened(against, fps, salvage, map_file) if against else None
     seen = [view.strip() for view in views.split(",") if view.strip()]
+    failed = 0
     for clip, target in progress(zip(found, targets, strict=True), total=len(found), doing="drawing"):
-        motion = a.opened(clip.path, fps, salvage, map_file)
+        try:
+            motion = a.opened(clip.path, fps, salvage, map_file)
+        except MienError as error:
+            complain(located(clip.path, str(error)))
+            failed += 1
+            continue
         _warn_of_sticks(clip.path, motion)
         target.parent.mkdir(parents=True, exist_ok=True)
         if suffix in FILMS:
@@ -68,16 +74,12 @@ def render(
         else:
             from ..render import strip
 
-            picture = strip(
-                motion,
-                against=other,
-                poses=poses,
-                views=seen or ("side", "front"),
-                width=width,
-                travel=travel,
-            )
+            shown = seen or ("side", "front")
+            picture = strip(motion, against=other, poses=poses, views=shown, width=width, travel=travel)
             save_picture(picture, target)
         typer.echo(str(target))
+    if failed:
+        raise typer.Exit(2 if failed == len(found) else 1)
 
 
 def _warn_of_sticks(path: Path, motion: "Motion") -> None:
