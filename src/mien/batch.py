@@ -6,7 +6,7 @@ import re
 import signal
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -110,8 +110,7 @@ def _damage(job: Job, motion: Motion) -> list[str]:
 
 def opened(path: Path, *, body: Mapping[str, str], fps: float | None = None, salvage: bool = False) -> Motion:
     """Return the motion of a file, with the roles of a map file kept in its skeleton."""
-    motion = load(path, fps=fps, salvage=salvage)
-    return motion.with_(skeleton=replace(motion.skeleton, roles=body)) if body else motion
+    return load(path, fps=fps, salvage=salvage, roles=body)
 
 
 def provenance(job: Job, motion: Motion) -> str:

@@ -127,7 +127,10 @@ class Motion:
         return mien.render.strip_html(self)
 
     def __getitem__(self, frames: slice) -> Self:
-        """Return the motion of a range of frames, e.g. ``motion[10:50]``."""
+        """Return the motion of a range of frames, e.g. ``motion[10:50]``.
+
+        It keeps the history of the whole, which does not make this range: use the edit ``trim`` for that.
+        """
         if not isinstance(frames, slice):
             raise MienError("give a range of frames, e.g. motion[10:50]")
         return self.with_(

@@ -80,3 +80,17 @@ def test_very_short_clips(frames: int) -> None:
     short = samples.walk(seconds=1.0, fps=30.0).motion[:frames]
     assert len(resample(short, fps=60.0)) == 2 * frames - 1
     np.testing.assert_allclose(resample(short, fps=60.0).rotations[::2], short.rotations, atol=1e-12)
+
+
+def test_no_curve_over_the_jump_from_a_t_pose() -> None:
+    walk = samples.walk(seconds=1.0, fps=60.0).motion
+    first = np.zeros_like(walk.rotations[:1])
+    first[..., 3] = 1.0
+    posed = walk.with_(
+        rotations=np.concatenate([first, walk.rotations]),
+        translations=np.concatenate([walk.translations[:1], walk.translations]),
+    )
+    fine, alone = resample(posed, fps=240.0), resample(walk, fps=240.0)
+    same = np.abs(np.einsum("tji,tji->tj", fine.rotations[4:], alone.rotations))
+    np.testing.assert_allclose(same, 1.0, atol=1e-12)
+    np.testing.assert_array_equal(fine.rotations[0], first[0])

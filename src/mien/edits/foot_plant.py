@@ -61,7 +61,8 @@ def foot_plant(
     """Keep planted feet where they stand, after any edit of the pose.
 
     ``original`` is the motion before the edits, with the same skeleton and frames; its contacts and its
-    foot placements are kept. Without it the motion itself is taken, which changes nothing. Bone lengths
+    foot placements are kept; the history does not hold it, so that only what was planted against the
+    motion's own beginning replays. Without it the motion itself is taken, which changes nothing. Bone lengths
     are kept; a target out of reach lowers the hips. Raises ``MienError`` when the frames differ.
     """
     original = original or motion

@@ -11,6 +11,7 @@ from typing import Annotated
 
 import numpy as np
 
+from ..kinematics.lead_in import lead_in
 from ..motion import Motion
 from ..rotations import quaternion
 from ..typing import Array
@@ -38,10 +39,11 @@ def resample(
     at = np.arange(count) / (fps * motion.frame_time)  # in frames of the clip
     whole = np.round(at)
     at = np.where(np.abs(at - whole) < 1e-9 * len(motion), whole, at)
-    rotations = quaternion.normalise(_spline(quaternion.continuous(motion.rotations), at))
+    still = lead_in(motion)  # no curve is laid over the jump from a T-pose
+    rotations = quaternion.normalise(_spline(quaternion.continuous(motion.rotations), at, still))
     translations = np.repeat(motion.translations[:1], count, axis=0)
     moving = np.ptp(motion.translations, axis=0).any(axis=-1)
-    translations[:, moving] = _spline(motion.translations[:, moving], at)
+    translations[:, moving] = _spline(motion.translations[:, moving], at, still)
     return motion.with_(
         rotations=quaternion.continuous(rotations),
         translations=translations,
@@ -50,11 +52,16 @@ def resample(
     )
 
 
-def _spline(values: Array, at: Array) -> Array:
-    """Return ``values`` (T, ...) at the moments ``at`` (in frames, from 0 to T - 1)."""
-    from scipy.interpolate import CubicSpline
+def _spline(values: Array, at: Array, still: int) -> Array:
+    """Return ``values`` (T, ...) at the moments ``at`` (in frames): straight up to ``still``, then smooth."""
+    from scipy.interpolate import CubicSpline, make_interp_spline
 
     if len(values) == 1 or not values.size:
         return np.repeat(values, len(at), axis=0)[: len(at)]
-    out: Array = CubicSpline(np.arange(len(values)), values)(np.minimum(at, len(values) - 1))
+    at = np.minimum(at, len(values) - 1)
+    frames = np.arange(len(values))
+    out: Array = CubicSpline(frames[still:], values[still:])(np.maximum(at, still))
+    before = at < still
+    if before.any():
+        out[before] = make_interp_spline(frames[: still + 1], values[: still + 1], k=1)(at[before])
     return out

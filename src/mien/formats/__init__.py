@@ -5,14 +5,14 @@ A format is a line in ``FORMATS``: its suffix, and a module with ``parse(data, .
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
 from typing import Protocol, cast
 
 from ..errors import FormatError, MienError, unknown
-from ..motion import Motion
+from ..motion import Motion, require_motion
 from . import files
 
 
@@ -39,16 +39,24 @@ class Entry:
 FORMATS: Mapping[str, Entry] = {".bvh": Entry("bvh", "Biovision hierarchy")}
 
 
-def load(path: str | PathLike[str], *, fps: float | None = None, salvage: bool = False) -> Motion:
+def load(
+    path: str | PathLike[str],
+    *,
+    fps: float | None = None,
+    salvage: bool = False,
+    roles: Mapping[str, str] | None = None,
+) -> Motion:
     """Read a motion from a file; the suffix says which format it is.
 
     ``fps`` (above 0) overrides the frame rate the file claims. ``salvage`` takes what is whole out of
-    a damaged file instead of refusing it. Raises ``FormatError`` with file, line and remedy.
+    a damaged file instead of refusing it. ``roles`` (role -> joint name) tells edits of a body that
+    they do not find by themselves. Raises ``FormatError`` with file, line and remedy.
     """
     if fps is not None and not 0 < fps < float("inf"):
         raise MienError(f"fps must be above 0, got {fps}")
     path = Path(path)
-    return _module(path).parse(files.read(path), path.name, fps=fps, salvage=salvage)
+    motion = _module(path).parse(files.read(path), path.name, fps=fps, salvage=salvage)
+    return motion.with_(skeleton=replace(motion.skeleton, roles=dict(roles))) if roles else motion
 
 
 def save(motion: Motion, path: str | PathLike[str], *, force: bool = False) -> None:
@@ -57,6 +65,7 @@ def save(motion: Motion, path: str | PathLike[str], *, force: bool = False) -> N
     What no edit touched is written as it was read. The file appears whole or not at all; one that
     exists is replaced only with ``force``. Raises ``FormatError`` when that cannot be done.
     """
+    require_motion(motion)
     path = Path(path)
     module = _module(path)
     files.check_target(path, force=force)
