@@ -8,6 +8,7 @@ import numpy as np
 
 from ..motion import Motion
 from ..rotations import quaternion
+from ..typing import Array
 
 LONGEST = 0.25  # seconds
 JUMP = 0.026  # radians, on average over the joints: one and a half degrees from one frame to the next
@@ -26,15 +27,21 @@ def lead_in(motion: Motion) -> int:
     within = int(LONGEST / motion.frame_time) + 1
     if len(motion) < within + 4:
         return 0
-    q = motion.rotations
-    same = np.abs(np.einsum("tji,tji->tj", q[1:], q[:-1]))
-    turn = 2.0 * np.arccos(np.minimum(same, 1.0)).mean(axis=1)
+    if _turns(motion.rotations[:2])[0] <= JUMP:
+        return 0
+    turn = _turns(motion.rotations)
     rushed = turn[:within] > max(2.0 * float(np.percentile(turn[within:], 90)), 0.25 * JUMP)
-    if not rushed[0] or turn[0] <= JUMP:
+    if not rushed[0]:
         return 0
     mostly = np.cumsum(rushed) >= 0.75 * np.arange(1, within + 1)
     frames = int(np.flatnonzero(rushed & mostly)[-1]) + 1
     return frames if turn[0] > RUSH * motion.frame_time or _starts_at_rest(motion, frames) else 0
+
+
+def _turns(rotations: Array) -> Array:
+    """Return how far the joints turn from frame to frame (T - 1,), on average, in radians."""
+    same = np.abs(np.einsum("tji,tji->tj", rotations[1:], rotations[:-1]))
+    return 2.0 * np.arccos(np.minimum(same, 1.0)).mean(axis=1)
 
 
 def _starts_at_rest(motion: Motion, frames: int) -> bool:
