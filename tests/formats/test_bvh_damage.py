@@ -57,6 +57,7 @@ ROW_DAMAGE = {
         "4 numbers where 6 were declared; the file looks cut off after frame 9 ",
     ),
     "nan": (changed(4, "4 4.5 0 nan 2 4"), 4, "number 4 is 'nan', not a finite number"),
+    "huge": (changed(4, "4 4.5 0 1e308 2 4"), 4, "number 4 is '1e308', not a finite number up to 1e9"),
     "infinity": (changed(4, "4 4.5 0 1 -inf 4"), 4, "number 5 is '-inf'"),
     "too large for a float": (changed(4, "4 4.5 0 1 1e999 4"), 4, "number 5 is '1e999'"),
     "text": (changed(4, "4 4.5 0 1 2 oops"), 4, "number 6 is 'oops'"),

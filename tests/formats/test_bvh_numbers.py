@@ -23,7 +23,7 @@ def by_float(text: bytes, width: int) -> np.ndarray | None:
             row = [float(word) for word in line.split()]
         except ValueError:
             return None
-        if len(row) not in (0, width) or not np.isfinite(row).all():
+        if len(row) not in (0, width) or not (np.abs(row) <= 1e9).all():
             return None
         rows += [row] if row else []
     return np.array(rows).reshape(-1, width)
@@ -66,7 +66,7 @@ def test_whatever_is_read_is_what_float_reads(seed: int) -> None:
     assert 300 < whole < 900
 
 
-FINITE = st.floats(allow_nan=False, allow_infinity=False)
+FINITE = st.floats(-1e9, 1e9)
 ROWS = hnp.arrays(np.float64, hnp.array_shapes(min_dims=2, max_dims=2, max_side=6), elements=FINITE)
 
 

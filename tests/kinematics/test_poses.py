@@ -93,8 +93,10 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
 
 
 def test_named_poses_are_values_that_posture_has() -> None:
-    for values in POSES.values():
-        posture(still(), **values)
+    for name, values in POSES.items():
+        named, given = posture(still(), pose=name), posture(still(), **values)
+        np.testing.assert_array_equal(named.rotations, given.rotations)
+        assert np.abs(named.rotations - still().rotations).max() > 0.01
 
 
 @pytest.mark.parametrize("skeleton", samples.SKELETONS)

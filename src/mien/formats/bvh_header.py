@@ -19,6 +19,7 @@ MAX_JOINTS = 5000
 POSITIONS = ("Xposition", "Yposition", "Zposition")
 ROTATIONS = ("Xrotation", "Yrotation", "Zrotation")
 _CHANNELS = {name.lower(): name for name in POSITIONS + ROTATIONS}
+LARGEST = 1e9  # lengths in millimetres and angles in degrees are far below; squares stay far from overflow
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 _BREAK = re.compile("\r\n|\n|\r")
 
@@ -62,6 +63,12 @@ def decode(header: bytes) -> tuple[str, str]:
         except UnicodeDecodeError:
             continue
     return header.decode("latin-1"), "latin-1"
+
+
+def coordinate(text: str) -> float:
+    """Return the number that ``text`` spells, else NaN, as for one too large to be a length or an angle."""
+    value = number(text)
+    return value if abs(value) <= LARGEST else math.nan
 
 
 def number(text: str) -> float:

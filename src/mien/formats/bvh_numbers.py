@@ -13,7 +13,7 @@ import numpy as np
 
 from ..typing import Array
 from .bvh_digits import read_fixed
-from .bvh_header import number
+from .bvh_header import LARGEST, coordinate
 
 _LETTERS = b"0123456789.+-eE \t\r\n"
 
@@ -30,7 +30,7 @@ class Problem:
 def read_rows(data: bytes, start: int, width: int) -> tuple[Array, Problem | None]:
     """Return the whole frames ``(T, width)`` from byte ``start`` to the first problem, and that problem."""
     values = read_fixed(data, start, width)
-    if values is not None:
+    if values is not None and _in_range(values):
         return values, None
     body = data[start:]
     values = _read_plain(body, width)
@@ -45,7 +45,12 @@ def _read_plain(body: bytes, width: int) -> Array | None:
         values: Array = np.loadtxt(io.BytesIO(body), comments=None, ndmin=2)
     except ValueError:
         return None
-    return values if values.shape[1] == width and np.isfinite(values).all() else None
+    return values if values.shape[1] == width and _in_range(values) else None
+
+
+def _in_range(values: Array) -> bool:
+    """Say whether every number is one that a body can have; NaN is none."""
+    return bool(values.min(initial=0.0) >= -LARGEST and values.max(initial=0.0) <= LARGEST)
 
 
 def _read_careful(body: bytes, width: int) -> tuple[Array, Problem | None]:
@@ -72,9 +77,9 @@ def _read_careful(body: bytes, width: int) -> tuple[Array, Problem | None]:
 def _fault(words: list[bytes], count: int, width: int) -> str:
     for i, word in enumerate(words):
         text = word.decode("latin-1")
-        if math.isnan(number(text)):
+        if math.isnan(coordinate(text)):
             hint = "; write decimals with a point" if "," in text else ""
-            return f"number {i % width + 1} is {text[:30]!r}, not a finite number{hint}"
+            return f"number {i % width + 1} is {text[:30]!r}, not a finite number up to 1e9{hint}"
     return f"{count} numbers where {width} were declared" if len(words) % width else ""
 
 
