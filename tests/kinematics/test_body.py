@@ -13,6 +13,8 @@ from mien.errors import BodyError
 from mien.kinematics.body import LEG, ROLES, SIDES, Body, read_map
 from mien.kinematics.fk import fk, world
 from mien.kinematics.heading import heading
+from mien.kinematics.roles import check
+from mien.kinematics.tree import tree as make_tree
 from mien.motion import Motion, Skeleton
 from mien.rotations import quaternion as quat
 from mien.samples import SAMPLES, SKELETONS, Sample, knock, still, walk
@@ -355,6 +357,15 @@ def test_a_map_that_does_not_fit_says_why(given: dict[str, str], message: str) -
     motion = walk(skeleton="standard22").motion
     with pytest.raises(BodyError, match=message):
         Body.of(motion, map=given)
+
+
+def test_one_side_cannot_hang_below_the_other() -> None:
+    motion = walk(skeleton="standard22").motion
+    names = motion.skeleton.names
+    roles = {role: j for role, j in Body.of(motion).roles.items() if role != "left_collar"}
+    tree = make_tree(motion.skeleton, motion.rotations[:1], motion.translations[:1])
+    with pytest.raises(BodyError, match=r"right_shoulder \('RightArm'\) hangs below left_shoulder"):
+        check(tree, roles | {"left_shoulder": names.index("Spine1")})
 
 
 def test_the_error_lists_the_joints_and_shows_the_lines_to_add() -> None:

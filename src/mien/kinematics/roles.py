@@ -87,6 +87,14 @@ def check(tree: Tree, roles: Mapping[str, int]) -> None:
                 f"{below} ({tree.names[roles[below]]!r}) does not hang below {above} "
                 f"({tree.names[roles[above]]!r}); correct the map file"
             )
+    for role in ("hip", "shoulder"):
+        for one, other in (SIDES, SIDES[::-1]):
+            a, b = f"{one}_{role}", f"{other}_{role}"
+            if tree.between(roles[a], roles[b]):
+                raise BodyError(
+                    f"{b} ({tree.names[roles[b]]!r}) hangs below {a} ({tree.names[roles[a]]!r}): they are "
+                    "the two sides of one body; correct the map file"
+                )
 
 
 _LINES = (
