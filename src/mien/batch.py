@@ -11,6 +11,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from .curve import Varying
 from .edits import pipeline
 from .emotion.files import format_recipe, read_provenance, sidecar_of
 from .errors import FormatError, MienError, RecipeError, sentence
@@ -27,7 +28,7 @@ class Job:
     source: Path
     target: Path
     recipe: Recipe
-    strength: float = 1.0
+    strength: Varying = 1.0
     parts: tuple[str, ...] = ()
     span: tuple[float, float] | None = None
     read: Mapping[str, Any] = field(default_factory=dict)

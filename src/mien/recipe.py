@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, fields
 from numbers import Real
 from typing import Any
 
+from .curve import Varying, read_varying
 from .errors import RecipeError
 
 VERSION = 1
@@ -21,13 +22,14 @@ class Step:
 
     ``strength`` 0 changes nothing, 1 is as written, up to 2 exaggerates. ``parts`` empty means the
     whole body. ``span`` is ``(start, end)`` in seconds, ``None`` the whole clip; the effect grows
-    and fades over ``ease`` seconds inside it. ``parts`` and ``span`` may be given as the command line
-    takes them: ``"head,arms"`` and ``"0.5,2"``.
+    and fades over ``ease`` seconds inside it. ``strength`` and any parameter that is a number may also be
+    a curve through ``(seconds, value)``, such as ``((0, 0), (1.5, 1))``. ``parts``, ``span`` and
+    ``strength`` may be given as the command line takes them: ``"head,arms"``, ``"0.5,2"``, ``"0:0,1.5:1"``.
     """
 
     edit: str
     parameters: Mapping[str, Any] = field(default_factory=dict)
-    strength: float = 1.0
+    strength: Varying = 1.0
     parts: tuple[str, ...] = ()
     span: tuple[float, float] | None = None
     ease: float = 0.25
@@ -40,8 +42,8 @@ class Step:
             raise RecipeError(
                 f"{self.edit}: parameters must be a mapping such as {{'head': 20.0}}, got {given}"
             )
-        for name in ("strength", "ease"):
-            require_number(f"{self.edit}: {name}", getattr(self, name))
+        require_number(f"{self.edit}: ease", self.ease)
+        object.__setattr__(self, "strength", read_varying(f"{self.edit}: strength", self.strength))
         object.__setattr__(self, "parts", read_parts(self.parts))
         object.__setattr__(self, "span", read_span(self.span))
 

@@ -14,6 +14,7 @@ SOURCE = ROOT / "src" / "mien"
 # Each room may import the rooms of the lines above its own, never its neighbours on the same line.
 LAYERS = (
     ("errors", "typing"),
+    ("curve",),
     ("recipe",),
     ("rotations",),
     ("signal",),
@@ -31,7 +32,7 @@ ARRAYS_ONLY = ("rotations", "signal")
 # A notebook asks the object itself for its picture, so this one looks up, when asked, by the front door.
 DISPLAY = {("motion", "")}
 # Files of edits/ that are not an edit themselves; every edit may import these and no other.
-SHARED = ("__init__", "registry", "pipeline")
+SHARED = ("__init__", "keyed", "parameters", "pipeline", "registry")
 # (importer, imported) that may go against the table, and why.
 EXCUSED = {
     ("motion", ""): "a motion shows itself in notebooks; who draws it is looked up when it is asked to",

@@ -10,7 +10,7 @@ from mien.edits.registry import EDITS
 from mien.kinematics import body
 
 ROOT = Path(__file__).resolve().parents[2]
-SHARED = {"__init__", "registry", "pipeline"}
+SHARED = {"__init__", "keyed", "parameters", "pipeline", "registry"}
 FILES = sorted(p.stem for p in (ROOT / "src" / "mien" / "edits").glob("*.py") if p.stem not in SHARED)
 
 
@@ -38,7 +38,7 @@ def test_what_an_edit_says_of_itself(name: str) -> None:
     edit = EDITS[name]
     assert edit.paper or edit.equation, f"{name}: @edit says the paper or, where there is none, the equation"
     assert edit.summary.endswith("."), f"{name}: the docstring starts with one sentence"
-    assert edit.kind in ("pose", "time", "repair")
+    assert edit.kind in ("pose", "rhythm", "time", "repair")
 
 
 @pytest.mark.parametrize("name", sorted(EDITS))
@@ -61,7 +61,7 @@ def test_parameters_describe_themselves(name: str) -> None:
 @pytest.mark.parametrize("name", sorted(EDITS))
 def test_a_pose_edit_follows_strength(name: str) -> None:
     edit = EDITS[name]
-    if edit.kind == "pose":
+    if edit.kind in ("pose", "rhythm"):
         assert any(p.about.neutral is not None for p in edit.parameters.values()), (
             f"{name}: no parameter has Param(neutral=...), so strength would change nothing"
         )

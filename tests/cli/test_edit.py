@@ -57,6 +57,36 @@ def test_the_sidecar_says_what_was_done_and_replays_to_the_same_bytes(folder: Pa
     assert Path("again.bvh").read_bytes() == made.read_bytes()
 
 
+def test_numbers_that_change_over_time(folder: Path, run: Run) -> None:
+    result = run("edit", "walk.bvh", "-e", "sad", "--strength", "0:0,1.2:1", "--posture-head", "0:0,1:25")
+    assert result.stdout == "walk_sad_0-1.bvh\n"
+    steps = read_recipe("walk_sad_0-1.bvh.recipe.toml").steps
+    posture = next(step for step in steps if step.edit == "posture")
+    assert posture.strength == ((0.0, 0.0), (1.2, 1.0))
+    assert posture.parameters["head"] == ((0.0, 0.0), (1.0, 25.0))
+    assert run("edit", "walk.bvh", "-r", "walk_sad_0-1.bvh.recipe.toml", "-o", "again.bvh").exit_code == 0
+    assert Path("again.bvh").read_bytes() == Path("walk_sad_0-1.bvh").read_bytes()
+    shown = run("edit", "walk.bvh", "--posture-head", "0:0,1:25", "--strength", "0:1,1:0.5", "-n").stdout
+    assert "posture head=0:0,1:25; strength 0:1,1:0.5" in shown
+
+
+@pytest.mark.parametrize(
+    ("flags", "message"),
+    [
+        (["--strength", "0:0,1"], "--strength must be a number, or times with their values"),
+        (["--strength", "0:0,1:3"], "--strength must be from 0 to 2, got 3"),
+        (["--posture-head", "down"], "--posture-head must be a number, or times with their values"),
+        (["--posture-head", "1:0,1:5"], "--posture-head: the times of its keys must go up"),
+        (["--resample-fps", "0:30,1:60"], "resample: fps cannot change over time"),
+    ],
+)
+def test_curves_that_are_none(folder: Path, run: Run, flags: list[str], message: str) -> None:
+    result = run("edit", "walk.bvh", "-e", "sad", *flags)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert message in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+
+
 def test_flags_of_edits_make_a_clip_of_their_own(folder: Path, run: Run) -> None:
     assert run("edit", "walk.bvh", "--posture-head", -20, "--no-foot-plant", "--no-sidecar").exit_code == 0
     before, after = mien.load("walk.bvh"), mien.load("walk_edited.bvh")

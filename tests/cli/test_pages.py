@@ -29,6 +29,16 @@ def blocks(page: Path, language: str) -> list[str]:
     )
 
 
+def recipes(page: Path) -> list[tuple[str, str]]:
+    """Every recipe on a page, and the file that the words before it say it is in."""
+    found, text = [], page.read_text(encoding="utf-8")
+    for block in re.finditer(r"^```toml\n(.*?)^```", text, re.MULTILINE | re.DOTALL):
+        names = re.findall(r"[\w-]+\.toml", text[: block.start()])
+        if "[[steps]]" in block[1]:
+            found.append((f"mien-demo/{names[-1]}" if page.stem == "quickstart" else names[-1], block[1]))
+    return found
+
+
 def done(line: str, run: Run) -> None:
     """Do one line of a command block in the current folder."""
     words = shlex.split(line.removeprefix("$ "), comments=True)
@@ -53,7 +63,9 @@ def test_commands_work_line_by_line_and_python_twice(
         run("demo")  # the last words of the line that installs mien
     if name == "docs/presets.md":
         mien.save(samples.walk(seconds=1.0, fps=30.0).motion, "walk.bvh")
-        Path("worn.toml").write_text(blocks(page, "toml")[0])
+    for file, text in recipes(page):
+        Path(file).parent.mkdir(exist_ok=True)
+        Path(file).write_text(text)
     for block in blocks(page, "console"):
         for line in block.splitlines():
             done(line, run)

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -5,7 +6,7 @@ import pytest
 
 import mien
 from mien import samples
-from mien.emotion.files import write_recipe
+from mien.emotion.files import format_recipe, parse_recipe, write_recipe
 from mien.emotion.resolve import resolve
 from mien.errors import RecipeError
 from mien.recipe import Recipe, Step
@@ -74,6 +75,27 @@ def test_parts_and_span_are_taken_as_on_the_command_line(walk: mien.Motion) -> N
     assert same(mien.apply(walk, mien.preset("sad"), parts="arms,head", span=[0.2, 0.8]), wanted)
 
 
+def test_strength_over_time_is_taken_in_three_forms(walk: mien.Motion) -> None:
+    curve = ((0.0, 1.0), (0.8, 0.0))
+    wanted = mien.edit(walk, "sad", strength=curve)
+    assert same(mien.edit(walk, "sad", strength="0:1,0.8:0"), wanted)
+    assert same(mien.apply(walk, mien.preset("sad"), strength=[[0, 1], [0.8, 0]]), wanted)
+    assert wanted.history[0].strength == curve
+
+
+def test_sad_to_happy_is_one_recipe() -> None:
+    walk = samples.walk(seconds=3.0, fps=30.0).motion
+    poses = {name: [s for s in mien.preset(name).steps if s.edit == "posture"] for name in ("sad", "happy")}
+    out, into = ((0.5, 1.0), (2.5, 0.0)), ((0.5, 0.0), (2.5, 1.0))
+    steps = [replace(s, strength=out) for s in poses["sad"]]
+    both = mien.apply(walk, [*steps, *(replace(s, strength=into) for s in poses["happy"])])
+    for name, frames in (("sad", slice(0, 16)), ("happy", slice(75, None))):
+        alone = mien.apply(walk, poses[name])
+        assert np.abs(both.rotations[frames] - alone.rotations[frames]).max() < 1e-12
+    parse = parse_recipe(format_recipe(Recipe("change", both.history)))
+    assert same(mien.apply(walk, parse), both)
+
+
 def test_without_the_feet_put_back(walk: mien.Motion) -> None:
     steps = mien.preset("sad").steps
     wanted = mien.apply(walk, [step for step in steps if step.edit != "foot_plant"])
@@ -92,7 +114,9 @@ def test_without_the_feet_put_back(walk: mien.Motion) -> None:
         ({"parts": "hed"}, "no body part or role 'hed'; did you mean 'head'"),
         ({"parts": 3}, "parts must be names"),
         ({"parts": (1, 2)}, "parts must be names"),
-        ({"strength": "much"}, "strength must be a number, got 'much'"),
+        ({"strength": "much"}, "strength must be a number, or times .* got 'much'"),
+        ({"strength": [(0, 1), (0, 2)]}, "the times of its keys must go up"),
+        ({"strength": [(0, 1), (1, 3)]}, "strength must be from 0 to 2, got 3"),
         ({"strength": True}, "strength must be a number"),
         ({"strength": float("nan")}, "strength must be from 0 to 2"),
     ],

@@ -13,6 +13,7 @@ from .report import complain, located, note, progress, show_json
 
 if TYPE_CHECKING:
     from ..batch import Job, Outcome
+    from ..curve import Varying
     from ..recipe import Recipe, Step
 
 Emotion = Annotated[
@@ -23,7 +24,12 @@ RecipeFile = Annotated[
     Path | None, typer.Option("--recipe", "-r", help="A recipe file (.toml or .json), or a clip's sidecar.")
 ]
 Strength = Annotated[
-    float, typer.Option(help="How much: 0 changes nothing, 1 as written, up to 2 exaggerates.")
+    str,
+    typer.Option(
+        metavar="NUMBER",
+        help="How much: 0 changes nothing, 1 as written, up to 2 exaggerates; or times with their values, "
+        "such as 0:0,1.5:1.",
+    ),
 ]
 Parts = Annotated[
     str, typer.Option(help="Only these body parts, e.g. arms,head (or roles such as left_wrist).")
@@ -54,7 +60,7 @@ def edit(
     clips: a.Clips,
     emotion: Emotion = None,
     recipe: RecipeFile = None,
-    strength: Strength = 1.0,
+    strength: Strength = "1",
     parts: Parts = "",
     span: Span = "",
     ease: Ease = None,
@@ -77,7 +83,8 @@ def edit(
     frame rate, and says in CLIP_EMOTION.bvh.recipe.toml how it was made. Strength, parts and span
     become part of the name. In a folder, what mien made is passed over.
 
-    A flag of an edit changes every step of that edit in the emotion or recipe, or adds a step.
+    A flag of an edit changes every step of that edit in the emotion or recipe, or adds a step. Any number may
+    change over time: write seconds and values, such as --strength 0:0,1.5:1.
 
     mien edit walk.bvh --emotion sad --strength 0.8
 
@@ -219,9 +226,13 @@ def _eased(recipe: "Recipe", ease: float | None, limited: bool) -> "Recipe":
     return replace(recipe, steps=tuple(pipeline.check(step) for step in steps))
 
 
-def _checked_strength(strength: float) -> float:
-    if not 0.0 <= strength <= 2.0:
-        raise MienError(f"--strength must be from 0 to 2, got {strength:g}")
+def _checked_strength(text: str) -> "Varying":
+    from ..curve import read_varying, values
+
+    strength = read_varying("--strength", text)
+    for value in values(strength):
+        if not 0.0 <= value <= 2.0:
+            raise MienError(f"--strength must be from 0 to 2, got {value:g}")
     return strength
 
 
@@ -275,18 +286,23 @@ def _plan(todo: "Sequence[Job]", as_json: bool) -> None:
 
 def _described(step: "Step") -> str:
     """Return a step in one line: what is not at its default, and how strongly, where and when it is done."""
+    from ..curve import shown
     from ..edits.registry import EDITS
 
     known = EDITS[step.edit].parameters
     values = [f"{key}={_shown(v)}" for key, v in step.parameters.items() if v != known[key].default]
-    limits = [f"strength {step.strength:g}"] if EDITS[step.edit].kind == "pose" else []
+    limits = [f"strength {shown(step.strength)}"] if EDITS[step.edit].kind in ("pose", "rhythm") else []
     limits += [f"parts {','.join(step.parts)}"] if step.parts else []
     limits += [f"{step.span[0]:g} to {step.span[1]:g} s, ease {step.ease:g} s"] if step.span else []
     return "; ".join([" ".join([step.edit, *values]), *limits])
 
 
 def _shown(value: Any) -> str:
-    return ",".join(value) if isinstance(value, tuple) else str(value)
+    from ..curve import shown
+
+    if not isinstance(value, tuple):
+        return str(value)
+    return ",".join(value) if all(isinstance(item, str) for item in value) else shown(value)
 
 
 def _report(done: "Sequence[Outcome]", as_json: bool) -> None:

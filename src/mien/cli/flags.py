@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from ..curve import read_varying, shown
 from ..edits.registry import EDITS, Edit, Param, Parameter
 from ..recipe import Step
 from .signature import with_parameters
@@ -15,7 +16,7 @@ _JOIN = "__"  # between edit and parameter in the name that a flag has inside
 
 # The order in which edits given by flags are done; an edit that is not named follows its kind.
 ORDER = ("trim", "resample", "mirror", "path_length", "timing", "posture", "foot_plant", "in_place")
-_LAST_OF_KIND = {"time": "mirror", "pose": "posture", "repair": "foot_plant"}
+_LAST_OF_KIND = {"time": "mirror", "rhythm": "mirror", "pose": "posture", "repair": "foot_plant"}
 
 
 def flag_name(edit: str, parameter: str = "") -> str:
@@ -91,8 +92,8 @@ def _option(edit: Edit, parameter: Parameter) -> inspect.Parameter:
     flag = flag_name(edit.name, parameter.name)
     if parameter.kind is bool:
         flag = f"{flag}/{flag_name('no_' + edit.name, parameter.name)}"
-    kind = parameter.kind if parameter.kind in (float, int, bool) else str
-    metavar = "|".join(parameter.choices) or None
+    kind = parameter.kind if parameter.kind in (int, bool) else str
+    metavar = "NUMBER" if parameter.kind is float else "|".join(parameter.choices) or None
     about = typer.Option(
         flag, help=describe(parameter), rich_help_panel=_panel(edit), show_default=False, metavar=metavar
     )
@@ -102,9 +103,9 @@ def _option(edit: Edit, parameter: Parameter) -> inspect.Parameter:
 def describe(parameter: Parameter) -> str:
     """Return what a parameter does, its range, unit and default, in one line."""
     about, default = parameter.about, parameter.default
-    shown = f"{default:g}" if type(default) in (int, float) else str(default).lower()
-    shown = ",".join(default) if isinstance(default, tuple) else shown
-    facts = [f"{_limits(about)} {about.unit}".strip(), f"default {shown or 'none'}"]
+    usual = shown(default) if type(default) in (int, float) else str(default).lower()
+    usual = ",".join(default) if isinstance(default, tuple) else usual
+    facts = [f"{_limits(about)} {about.unit}".strip(), f"default {usual or 'none'}"]
     return f"{_plain(about.doc)} ({'; '.join(fact for fact in facts if fact)})"
 
 
@@ -138,11 +139,14 @@ def _given(values: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
             continue
         parameters = found.setdefault(name, {})
         if parameter:
-            parameters[parameter] = _value(EDITS[name].parameters[parameter], value)
+            flag = flag_name(name, parameter)
+            parameters[parameter] = _value(flag, EDITS[name].parameters[parameter], value)
     return found
 
 
-def _value(parameter: Parameter, value: Any) -> Any:
+def _value(flag: str, parameter: Parameter, value: Any) -> Any:
+    if parameter.kind is float:
+        return read_varying(flag, value)
     if parameter.kind is tuple:
         return tuple(item.strip() for item in value.split(",") if item.strip())
     if parameter.name == "pose" and str(value).endswith(".toml"):

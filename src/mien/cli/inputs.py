@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from glob import glob
 from pathlib import Path
 
+from ..curve import Varying, values
 from ..errors import FormatError, MienError
 from ..formats import files
 from .report import note
@@ -87,10 +88,10 @@ def _nearest(path: Path) -> str:
     return f"; did you mean {path.with_name(near[0])}?" if near else ""
 
 
-def label(name: str, strength: float, parts: Sequence[str], span: tuple[float, float] | None) -> str:
-    """Return what to put behind a clip's name: ``sad``, or ``sad_0.5_arms-head_1-3.5s``."""
+def label(name: str, strength: Varying, parts: Sequence[str], span: tuple[float, float] | None) -> str:
+    """Return what to put behind a clip's name: ``sad``, ``sad_0-1`` or ``sad_0.5_arms-head_1-3.5s``."""
     words = [_safe(name) or "edited"]
-    words += [f"{strength:g}"] if strength != 1.0 else []
+    words += ["-".join(f"{value:g}" for value in values(strength))] if strength != 1.0 else []
     words += ["-".join(parts)] if parts else []
     words += [f"{span[0]:g}-{span[1]:g}s"] if span else []
     return "_".join(words)

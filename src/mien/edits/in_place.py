@@ -25,31 +25,42 @@ CUTOFF = 0.5  # Hz: below a stride (about 0.9 Hz), whose sway stays, and above a
 @edit(
     kind="time",
     paper="Whittaker (1923), order 2",
-    equation="x' = x - a (z - z(0)),  z = argmin |x - z|^2 + (fps / (2 pi f))^4 |D^2 z|^2,  f = 0.5 Hz",
+    equation="x' = x - sum a dz,  z = argmin |x - z|^2 + (fps / (2 pi f))^4 |D^2 z|^2,  f = 0.5 Hz",
 )
 def in_place(
     motion: Motion,
     *,
-    amount: Annotated[float, Param("how much of the travel is taken out", 0.0, 1.0, neutral=0.0)] = 1.0,
+    amount: Annotated[
+        float | Array, Param("how much of the travel is taken out", 0.0, 1.0, neutral=0.0)
+    ] = 1.0,
 ) -> Motion:
     """Take the travel over the ground out of the hips' path, up to ``amount`` of it (0 to 1).
 
     Height, heading and what is faster than 0.5 Hz stay; the path has response ``1 / (1 + (f / 0.5)^4)``.
+    An ``amount`` that changes over time (T,) is the share of each step that is taken out.
     """
-    if not amount or len(motion) < 2:
+    if not np.any(amount) or len(motion) < 2:
         return motion
     body = Body.of(motion)
     hips, up = body.roles["hips"], body.up
     joints, rotations, positions = chain(motion, [hips])
     ground = positions[:, -1] - (positions[:, -1] @ up)[:, None] * up
     path = slow_path(ground, motion.fps)
-    shift = -amount * (path - path[0])
+    shift = -_travel(path, amount)
     above = int(motion.skeleton.parents[hips])
     if above >= 0:
         shift = quaternion.rotate(quaternion.conjugate(rotations[:, joints.index(above)]), shift)
     translations = np.array(motion.translations)
     translations[:, hips] += shift
     return motion.with_(translations=translations)
+
+
+def _travel(path: Array, amount: float | Array) -> Array:
+    """Return how far each frame (T, 3) has gone along ``path``, each step by its ``amount``."""
+    if not isinstance(amount, np.ndarray):
+        return amount * (path - path[0])
+    share = 0.5 * (amount[1:] + amount[:-1])
+    return np.concatenate([np.zeros((1, 3)), np.cumsum(share[:, None] * np.diff(path, axis=0), axis=0)])
 
 
 def slow_path(x: Array, fps: float) -> Array:

@@ -1,8 +1,8 @@
 """Apply steps and recipes to a motion.
 
 Strength moves an edit's parameters from neutral; body parts and time spans blend the edited motion
-with the one before. Repairs get the reference: the motion before the first step of its history, also
-when the steps were applied in several calls.
+with the one before, and weigh the strength of an edit of rhythm. Repairs get the reference: the motion before
+the first step of its history, also when the steps were applied in several calls.
 """
 
 from collections.abc import Iterable, Sequence
@@ -10,14 +10,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..curve import Varying, multiply, values
 from ..errors import RecipeError, unknown
+from ..kinematics.blending import blend
 from ..kinematics.body import Body
 from ..kinematics.parts import common_parts
 from ..motion import Motion
 from ..recipe import Recipe, Step
-from ..rotations import quaternion
 from ..typing import Array
 from .registry import EDITS
+
+MOST = 2.0  # times the strength that a step is written with
 
 
 def check(step: Step) -> Step:
@@ -27,8 +30,7 @@ def check(step: Step) -> Step:
     """
     if step.edit not in EDITS:
         raise RecipeError(unknown("edit", step.edit, EDITS))
-    if not 0.0 <= step.strength <= 2.0:
-        raise RecipeError(f"{step.edit}: strength must be from 0 to 2, got {step.strength:g}")
+    _check_strength(f"{step.edit}: strength", step.strength)
     if not step.ease >= 0.0:
         raise RecipeError(f"{step.edit}: ease must be 0 seconds or more, got {step.ease:g}")
     if step.span is not None and not step.span[0] < step.span[1]:
@@ -40,7 +42,7 @@ def apply(
     motion: Motion,
     recipe: Recipe | Iterable[Step],
     *,
-    strength: float = 1.0,
+    strength: Varying = 1.0,
     parts: Sequence[str] = (),
     span: tuple[float, float] | None = None,
 ) -> Motion:
@@ -63,7 +65,7 @@ def apply(
 def plan(
     recipe: Recipe | Iterable[Step],
     *,
-    strength: float = 1.0,
+    strength: Varying = 1.0,
     parts: Sequence[str] = (),
     span: tuple[float, float] | None = None,
 ) -> list[Step]:
@@ -71,67 +73,65 @@ def plan(
 
     Raises ``RecipeError`` for what is unknown or out of range.
     """
-    if not 0.0 <= strength <= 2.0:
-        raise RecipeError(f"strength must be from 0 to 2, got {strength:g}")
+    _check_strength("strength", strength)
     steps = [check(s) for s in (recipe.steps if isinstance(recipe, Recipe) else recipe)]
-    if strength == 0.0:
+    if not any(values(strength)):
         return []
     limited = (_limited(step, strength, tuple(parts), span) for step in steps)
-    return [step for step in limited if step is not None and step.strength > 0.0]
+    return [step for step in limited if step is not None and any(values(step.strength))]
+
+
+def _check_strength(what: str, strength: Varying) -> None:
+    for value in values(strength):
+        if not 0.0 <= value <= MOST:
+            raise RecipeError(f"{what} must be from 0 to 2, got {value:g}")
 
 
 def _limited(
-    step: Step, strength: float, parts: tuple[str, ...], span: tuple[float, float] | None
+    step: Step, strength: Varying, parts: tuple[str, ...], span: tuple[float, float] | None
 ) -> Step | None:
-    """Return the step as it is to be done, or None where nothing of it is left."""
-    if EDITS[step.edit].kind != "pose":
+    """Return the step as it is to be done, or None where nothing of it is left.
+
+    When things happen is a matter of the whole body: of some parts only, the rhythm is left as it is.
+    """
+    kind = EDITS[step.edit].kind
+    if kind in ("time", "repair"):
         return replace(step, parts=(), span=None)
     both = common_parts(step.parts, parts)
+    if kind == "rhythm" and both:
+        return None
     start, end = step.span or span or (0.0, 1.0)
     if step.span and span:
         start, end = max(step.span[0], span[0]), min(step.span[1], span[1])
     if both is None or start >= end:
         return None
     limits = (start, end) if step.span or span else None
-    return replace(step, strength=min(step.strength * strength, 2.0), parts=both, span=limits)
+    return replace(step, strength=multiply(step.strength, strength, most=MOST), parts=both, span=limits)
 
 
 def _apply_step(motion: Motion, step: Step) -> Motion:
     edit = EDITS[step.edit]
+    if edit.kind == "rhythm":
+        within = _shown(motion, step) if step.span else None
+        after = edit.perform(motion, step.parameters, strength=step.strength, within=within)
+        return after.with_(history=(*motion.history, step))
     joints = Body.of(motion).joints(step.parts) if step.parts else None
-    after = edit.perform(motion, edit.scaled(step.parameters, step.strength), joints=joints)
+    after = edit.perform(motion, step.parameters, strength=step.strength, joints=joints)
     if step.parts or step.span:
-        after = _blend(motion, after, _weights(motion, step, joints))
+        wanted = np.zeros(len(motion.skeleton))
+        wanted[slice(None) if joints is None else joints] = 1.0
+        after = blend(motion, after, _shown(motion, step)[:, None] * wanted)
     return after.with_(history=(*motion.history, step))
 
 
-def _weights(motion: Motion, step: Step, wanted: list[int] | None) -> Array:
-    """Return how much of the edit shows (T, J): the body parts times the span with its eases."""
-    joints = np.zeros(len(motion.skeleton))
-    joints[slice(None) if wanted is None else wanted] = 1.0
+def _shown(motion: Motion, step: Step) -> Array:
+    """Return how much of the edit shows in each frame (T,): its span with the eases."""
     if step.span is None:
-        return np.broadcast_to(joints, (len(motion), len(joints)))
+        return np.ones(len(motion))
     start, end = step.span
     ease = min(step.ease, 0.5 * (end - start))
     slack = 1e-6 * motion.frame_time  # frames on the border are inside: 3 * 0.1 s is above 0.3 s
     into = np.clip((motion.times - start) / ease, 0, 1) if ease else motion.times >= start - slack
     out = np.clip((end - motion.times) / ease, 0, 1) if ease else motion.times <= end + slack
     shown = np.minimum(into, out)
-    shown = shown * shown * shown * (shown * (6 * shown - 15) + 10)  # no jump in speed or acceleration
-    return shown[:, None] * joints
-
-
-def _blend(before: Motion, after: Motion, weights: Array) -> Motion:
-    """Blend joint by joint; weight 0 gives the numbers of ``before`` and 1 those of ``after``, exactly."""
-    rotations, translations = np.array(before.rotations), np.array(before.translations)
-    for joint in np.flatnonzero(weights.any(axis=0)):
-        w = weights[:, joint]
-        whole, part = w >= 1.0, (w > 0.0) & (w < 1.0)
-        rotations[whole, joint] = after.rotations[whole, joint]
-        translations[whole, joint] = after.translations[whole, joint]
-        if part.any():
-            here, there = before.rotations[part, joint], after.rotations[part, joint]
-            rotations[part, joint] = quaternion.slerp(here, there, w[part])
-            step = after.translations[part, joint] - before.translations[part, joint]
-            translations[part, joint] += w[part, None] * step
-    return after.with_(rotations=quaternion.continuous(rotations), translations=translations)
+    return shown * shown * shown * (shown * (6 * shown - 15) + 10)  # no jump in speed or acceleration

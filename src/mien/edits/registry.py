@@ -4,51 +4,23 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import wraps
-from math import inf, isfinite
-from numbers import Real
-from types import UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from math import inf
+from typing import Any, Literal
 
+import numpy as np
+
+from ..curve import Varying, evaluate
 from ..errors import RecipeError, unknown
 from ..kinematics.lead_in import lead_in, with_lead_in, without_lead_in
 from ..motion import Motion
 from ..recipe import Step
+from ..typing import Array
+from . import keyed
+from .parameters import Param as Param
+from .parameters import Parameter as Parameter
+from .parameters import check_value, read_parameters
 
-Kind = Literal["pose", "time", "repair"]
-# What the pipeline gives an edit that asks for it: no parameters, as no recipe holds them.
-NOT_PARAMETERS = ("original", "joints")
-
-
-@dataclass(frozen=True)
-class Param:
-    """What a signature says of one parameter beside its type and default.
-
-    ``neutral`` is the value that changes nothing: strength goes from there to the given value and
-    beyond. Without it a parameter does not follow strength (a choice, a seed, a threshold).
-    """
-
-    doc: str
-    low: float | None = None
-    high: float | None = None
-    unit: str = ""
-    neutral: float | None = None
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """One parameter of an edit, read from its signature. ``kind``: float, int, bool, str or list."""
-
-    name: str
-    kind: type
-    default: Any
-    about: Param
-    choices: tuple[str, ...] = ()
-    optional: bool = False
-
-    @property
-    def doc(self) -> str:
-        """The one-line description."""
-        return self.about.doc
+Kind = Literal["pose", "rhythm", "time", "repair"]
 
 
 @dataclass(frozen=True)
@@ -56,8 +28,10 @@ class Edit:
     """A registered edit.
 
     ``kind`` says how it meets the rest of a recipe: a ``pose`` edit changes poses frame by frame and
-    can be limited to parts and spans; a ``time`` edit changes frames or the whole clip, and is done to
-    the reference too; a ``repair`` is given the reference and always sees the whole clip.
+    can be limited to parts and spans; a ``rhythm`` edit changes when things happen to the whole body: it
+    follows strength and spans; a ``time`` edit changes frames or the whole clip; a ``repair`` is given the
+    reference and always sees the whole clip. The last three kinds never have parts; ``rhythm`` and ``time``
+    are done to the reference too.
     """
 
     name: str
@@ -68,54 +42,118 @@ class Edit:
     equation: str
     deviations: str
     parameters: Mapping[str, Parameter]
-    by_joint: bool
+    asks: frozenset[str]
 
     def perform(
         self,
         motion: Motion,
         values: Mapping[str, Any],
         *,
+        strength: Varying = 1.0,
+        within: Array | None = None,
         original: Motion | None = None,
         joints: Sequence[int] | None = None,
     ) -> Motion:
-        """Run the edit with checked values, giving a repair the reference and carrying that along.
+        """Run the edit with checked values at a strength, any of them curves over time.
 
-        ``joints`` are those that are asked for; an edit that goes joint by joint leaves out the others.
+        ``within`` (T,) is how much of a ``rhythm`` edit shows in each frame. ``original`` and ``joints`` are
+        given to edits that ask for them.
+        """
+        changing = keyed.curves(values, self._numbers(), strength)
+        if self.kind in ("rhythm", "time"):
+            steady = within is None and not changing
+            return self._retimed(
+                motion,
+                self.scaled(values, strength) if steady else self._by_frame(motion, values, strength, within),
+            )
+        if not changing:
+            return self._perform(motion, self.scaled(values, strength), original, joints)
+
+        def render(now: Mapping[str, float]) -> Motion:
+            level = now.get(keyed.STRENGTH, strength)
+            numbers = {name: now.get(name, value) for name, value in values.items()}
+            return self._perform(motion, self.scaled(numbers, level), original, joints)
+
+        return keyed.blended(motion, changing, render)
+
+    def _perform(
+        self,
+        motion: Motion,
+        values: Mapping[str, Any],
+        original: Motion | None,
+        joints: Sequence[int] | None,
+    ) -> Motion:
+        """Run an edit with plain numbers, giving a repair the reference and carrying that along.
+
         A still at the start of the capture, such as a T-pose, is no movement: poses are edited without it.
         """
         reference = motion.reference or motion
         if self.kind == "repair":
             return self.run(motion, **values, original=original or reference).with_(reference=reference)
-        if self.kind == "time":
-            after = self.run(motion, **values)
-            return after.with_(reference=after if reference is motion else self.run(reference, **values))
         still = lead_in(reference) if len(reference) == len(motion) else 0
-        only = {"joints": joints} if self.by_joint else {}
+        only = {"joints": joints} if "joints" in self.asks else {}
         after = self.run(without_lead_in(motion, still), **values, **only)
         return with_lead_in(after, motion, still).with_(reference=reference)
+
+    def _retimed(self, motion: Motion, values: Mapping[str, Any]) -> Motion:
+        """Run an edit of time on the motion and on its reference, so that their frames stay the same.
+
+        An edit that asks for ``original`` gets the reference both times, and takes its times from there; one
+        that asks for ``only_time`` is told to leave the reference's poses alone.
+        """
+        reference = motion.reference or motion
+        given = {"original": reference} if "original" in self.asks else {}
+        after = self.run(motion, **values, **given)
+        if reference is motion and "only_time" not in self.asks:
+            return after.with_(reference=after)
+        alone = {"only_time": True} if "only_time" in self.asks else {}
+        return after.with_(reference=self.run(reference, **values, **given, **alone))
 
     def complete(self, given: Mapping[str, Any]) -> dict[str, Any]:
         """Return all parameters: those given, checked, and the defaults of the others."""
         for name in given:
             if name not in self.parameters:
                 raise RecipeError(f"{self.name}: " + unknown("parameter", name, self.parameters))
-        return {
+        values = {
             name: check_value(self.name, p, given[name]) if name in given else p.default
             for name, p in self.parameters.items()
         }
+        for name in keyed.curves(values, self._numbers(), 1.0):
+            if self.kind in ("rhythm", "time") and not self.parameters[name].varies:
+                raise RecipeError(f"{self.name}: {name} cannot change over time; give one number")
+        return values
 
-    def scaled(self, values: Mapping[str, Any], strength: float) -> dict[str, Any]:
+    def scaled(self, values: Mapping[str, Any], strength: Varying) -> dict[str, Any]:
         """Return ``values`` moved from neutral by ``strength``, within each parameter's range."""
         out = dict(values)
-        for name, p in self.parameters.items():
-            neutral = p.about.neutral
-            if neutral is None or strength == 1.0 or not isinstance(values[name], int | float):
-                continue
-            value = neutral + strength * (values[name] - neutral)
-            low = -inf if p.about.low is None else p.about.low
-            high = inf if p.about.high is None else p.about.high
-            out[name] = min(max(value, low), high)
+        for name, value in values.items():
+            follows = self.parameters[name].about.neutral is not None and isinstance(value, int | float)
+            if follows and strength != 1.0:
+                out[name] = _moved(self.parameters[name], value, strength)
         return out
+
+    def _by_frame(
+        self, motion: Motion, values: Mapping[str, Any], strength: Varying, within: Array | None
+    ) -> dict[str, Any]:
+        """Return ``values`` at every frame (T,), moved from neutral by strength, where they vary."""
+        share = evaluate(strength, motion.times) * (1.0 if within is None else within)
+        out = dict(values)
+        for name, p in self.parameters.items():
+            if p.varies and p.about.neutral is not None:
+                out[name] = _moved(p, evaluate(values.get(name, p.default), motion.times), share)
+        return out
+
+    def _numbers(self) -> dict[str, Parameter]:
+        return {name: p for name, p in self.parameters.items() if p.kind is float}
+
+
+def _moved(parameter: Parameter, value: Any, strength: Any) -> Any:
+    """Return a value, or values, moved from neutral by ``strength``, within the parameter's range."""
+    about = parameter.about
+    low = -inf if about.low is None else about.low
+    high = inf if about.high is None else about.high
+    moved = np.clip(about.neutral + strength * (value - about.neutral), low, high)
+    return moved if np.ndim(moved) else float(moved)
 
 
 EDITS: dict[str, Edit] = {}
@@ -124,19 +162,19 @@ EDITS: dict[str, Edit] = {}
 def edit(*, kind: Kind = "pose", paper: str, equation: str = "", deviations: str = "") -> Callable[..., Any]:
     """Register ``function(motion, *, parameters) -> Motion`` under its name.
 
-    The registered function checks its parameters and appends one step to the motion's history. A
-    ``repair`` also takes ``original``, the motion to compare with (without it the motion before the first
-    step of the history), which is not a parameter. Nor is ``joints`` of an edit that works joint by joint:
-    the joints whose result is wanted (None: all).
+    The registered function checks its parameters and appends one step to the motion's history. Some
+    arguments are no parameters, and are given to a function that has them in its signature: ``original``,
+    the motion to compare with (without it the motion before the first step of the history); ``joints`` of
+    a pose edit that works joint by joint, the joints whose result is wanted (None: all); ``only_time`` of a
+    rhythm edit that changes poses too: leave them as they are.
     """
 
     def register(function: Callable[..., Motion]) -> Callable[..., Motion]:
         name = function.__name__
-        known = _parameters(function)
         doc = inspect.getdoc(function) or ""
-        by_joint = "joints" in inspect.signature(function).parameters
-        summary = doc.split("\n")[0]
-        found = Edit(name, function, kind, summary, paper, equation, deviations, known, by_joint)
+        asks = frozenset(inspect.signature(function).parameters)
+        known, summary = read_parameters(function), doc.split("\n")[0]
+        found = Edit(name, function, kind, summary, paper, equation, deviations, known, asks)
 
         @wraps(function)
         def run(motion: Motion, **given: Any) -> Motion:
@@ -149,73 +187,3 @@ def edit(*, kind: Kind = "pose", paper: str, equation: str = "", deviations: str
         return run
 
     return register
-
-
-def check_value(owner: str, parameter: Parameter, value: Any) -> Any:
-    """Return ``value`` as the parameter's type, or raise ``RecipeError`` saying what would fit."""
-    where = f"{owner}: {parameter.name}"
-    if value is None and parameter.optional:
-        return None
-    if parameter.kind is bool:
-        if not isinstance(value, bool):
-            raise RecipeError(f"{where} must be true or false, got {value!r}")
-        return value
-    if parameter.kind in (float, int):
-        return _number(where, parameter, value)
-    if parameter.kind is tuple:
-        if not isinstance(value, str | list | tuple):
-            raise RecipeError(f"{where} must be a list, got {value!r}")
-        items = [value] if isinstance(value, str) else list(value)
-        for item in items:
-            if parameter.choices and item not in parameter.choices:
-                raise RecipeError(f"{where}: " + unknown("choice", item, parameter.choices))
-        return tuple(items)
-    if not isinstance(value, str):
-        raise RecipeError(f"{where} must be text, got {value!r}")
-    if parameter.choices and value not in parameter.choices:
-        raise RecipeError(f"{where}: " + unknown("choice", value, parameter.choices))
-    return value
-
-
-def _number(where: str, parameter: Parameter, value: Any) -> float | int:
-    if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
-        raise RecipeError(f"{where} must be a number, got {value!r}")
-    number, about = float(value), parameter.about
-    low, high, unit = about.low, about.high, f" {about.unit}".rstrip()
-    if (low is not None and number < low) or (high is not None and number > high):
-        bounds = f"at least {low:g}" if high is None else f"at most {high:g}"
-        bounds = f"from {low:g} to {high:g}" if low is not None and high is not None else bounds
-        raise RecipeError(f"{where} must be {bounds}{unit}, got {number:g}")
-    if parameter.kind is int:
-        if not number.is_integer():
-            raise RecipeError(f"{where} must be a whole number, got {value!r}")
-        return int(number)
-    return number
-
-
-def _parameters(function: Callable[..., Motion]) -> dict[str, Parameter]:
-    """Read the keyword-only parameters of an edit from its signature."""
-    hints = get_type_hints(function, include_extras=True)
-    found = {}
-    for name, p in list(inspect.signature(function).parameters.items())[1:]:
-        if name in NOT_PARAMETERS:
-            continue
-        hint = hints[name]
-        if p.kind is not p.KEYWORD_ONLY or p.default is p.empty or get_origin(hint) is not Annotated:
-            raise TypeError(f"{function.__name__}: {name} must be keyword-only, with a default and a Param")
-        kind, about = get_args(hint)[:2]
-        plain, choices, optional = _plain(kind)
-        found[name] = Parameter(name, plain, p.default, about, choices, optional)
-    return found
-
-
-def _plain(hint: Any) -> tuple[type, tuple[str, ...], bool]:
-    """Return the plain type, the choices and whether None is allowed, of a type hint."""
-    if isinstance(hint, UnionType) or get_origin(hint) is Union:
-        inner = [h for h in get_args(hint) if h is not type(None)]
-        return (*_plain(inner[0])[:2], True)
-    if get_origin(hint) is Literal:
-        return str, get_args(hint), False
-    if get_origin(hint) is tuple:
-        return tuple, _plain(get_args(hint)[0])[1], False
-    return hint, (), False

@@ -15,9 +15,11 @@
     mid = 0.6
     parts = ["arms"]
     span = [0.5, 2.0]
+    strength = [[0.5, 0.0], [1.0, 1.0]]
 
-A step holds its parameters beside ``edit``, ``strength``, ``parts``, ``span`` and ``ease``. A file may
-carry a ``[provenance]`` table (what made a clip); it is not part of the recipe.
+A step holds its parameters beside ``edit``, ``strength``, ``parts``, ``span`` and ``ease``. A number may be
+a curve: a list of times in seconds, each with its value. A file may carry a ``[provenance]`` table (what
+made a clip); it is not part of the recipe.
 """
 
 import json
@@ -26,6 +28,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, Literal
 
+from ..curve import Varying, read_varying
 from ..edits import pipeline
 from ..edits.registry import EDITS
 from ..errors import RecipeError, unknown
@@ -158,7 +161,7 @@ def _step(where: str, table: Any) -> Step:
     step = Step(
         edit=name,
         parameters={key: value for key, value in table.items() if key not in _STEP_KEYS},
-        strength=_number(where, "strength", table.get("strength", 1.0)),
+        strength=_strength(where, table.get("strength", 1.0)),
         parts=tuple(_part(where, part) for part in _is(where, "parts", table.get("parts", []), list)),
         span=_span(where, table.get("span")),
         ease=_number(where, "ease", table.get("ease", Step.ease)),
@@ -176,12 +179,17 @@ def _plain_step(step: Step) -> dict[str, Any]:
     table: dict[str, Any] = {"edit": step.edit}
     for key, value in step.parameters.items():
         if value is not None:  # a parameter that may be None has None as its default
-            table[key] = list(value) if isinstance(value, tuple) else value
+            table[key] = _plain(value)
     for key in _STEP_KEYS[1:]:
         value = getattr(step, key)
         if value != getattr(usual, key):
-            table[key] = list(value) if isinstance(value, tuple) else value
+            table[key] = _plain(value)
     return table
+
+
+def _plain(value: Any) -> Any:
+    """Return tuples, and tuples in tuples, as lists."""
+    return [_plain(item) for item in value] if isinstance(value, tuple) else value
 
 
 def _known_keys(where: str, kind: str, table: Mapping[str, Any], known: tuple[str, ...]) -> None:
@@ -205,6 +213,15 @@ def _number(where: str, what: str, value: Any) -> float:
         return float(value)
     except OverflowError:
         raise RecipeError(f"{where}: {what} is far too large") from None
+
+
+def _strength(where: str, value: Any) -> Varying:
+    if not isinstance(value, list):
+        return _number(where, "strength", value)
+    try:
+        return read_varying("strength", value)
+    except RecipeError as error:
+        raise RecipeError(f"{where}: {error}") from None
 
 
 def _part(where: str, part: Any) -> str:

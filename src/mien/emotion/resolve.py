@@ -4,15 +4,17 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from ..curve import Varying, read_varying
 from ..edits import pipeline
 from ..errors import RecipeError, unknown
 from ..kinematics.body import PARTS, ROLES
 from ..motion import Motion, require_motion
-from ..recipe import Recipe, Step, read_parts, read_span, require_number
+from ..recipe import Recipe, Step, read_parts, read_span
 from . import files
 
 Steps = Recipe | Step | Iterable[Step]
 What = str | Path | Steps
+Strength = Varying | str | Sequence[Sequence[float]]
 Parts = str | Sequence[str]
 Span = str | tuple[float, float] | None
 
@@ -39,14 +41,15 @@ def edit(
     motion: Motion,
     what: What,
     *,
-    strength: float = 1.0,
+    strength: Strength = 1.0,
     parts: Parts = (),
     span: Span = None,
     foot_plant: bool = True,
 ) -> Motion:
     """Return ``motion`` edited by an emotion word, a recipe file, a recipe or a list of steps.
 
-    ``strength`` from 0 (nothing) over 1 (as written) to 2 multiplies every step's own; ``parts``
+    ``strength`` from 0 (nothing) over 1 (as written) to 2 multiplies every step's own, and may be a curve of
+    ``(seconds, value)`` such as ``[(0, 1), (5, 0)]``; ``parts``
     (``"head,arms"`` or ``("head", "arms")``) and ``span`` (start and end in seconds) limit what is changed;
     the feet are put back over the whole clip, where the recipe does so; not with ``foot_plant=False``.
     Raises ``MienError`` for what is no motion, ``RecipeError`` for what is unknown or out of range.
@@ -59,7 +62,7 @@ def edit(
 
 
 def apply(
-    motion: Motion, recipe: Steps, *, strength: float = 1.0, parts: Parts = (), span: Span = None
+    motion: Motion, recipe: Steps, *, strength: Strength = 1.0, parts: Parts = (), span: Span = None
 ) -> Motion:
     """Return ``motion`` after a recipe, a step or a list of steps; one more step of history for each done.
 
@@ -67,12 +70,12 @@ def apply(
     lies within ``parts`` and ``span`` is done; repairs see the whole clip.
     """
     require_motion(motion)
-    require_number("strength", strength)
+    amount = read_varying("strength", strength)
     limits = _known(read_parts(parts))
     times = read_span(span)
     if times and not times[0] < times[1]:
         raise RecipeError(f"span must end after it starts, got {times}")
-    return pipeline.apply(motion, _recipe(recipe), strength=strength, parts=limits, span=times)
+    return pipeline.apply(motion, _recipe(recipe), strength=amount, parts=limits, span=times)
 
 
 def _recipe(steps: Steps, others: str = "") -> Recipe:
