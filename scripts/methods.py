@@ -1,6 +1,7 @@
-"""Write what documents say of edits and presets, from the registry and the preset files.
+"""Write what documents say of edits, presets and checks, from the registry and the preset files.
 
-METHODS.md, the facts in docs/methods/*.md, the tables of emotion words in README.md and docs/presets.md.
+METHODS.md, the facts in docs/methods/*.md, the tables of emotion words in README.md and docs/presets.md, that
+of the checks in docs/checks.md.
 ``python scripts/methods.py`` writes them; with ``--check`` it only says which are out of date. Change the
 edit or the preset, then run this.
 """
@@ -9,6 +10,7 @@ import sys
 from pathlib import Path
 
 import mien.edits
+from mien.analysis.checks.report import CHECKS
 from mien.cli.flags import flag_name
 from mien.edits.registry import EDITS, Edit, Parameter
 from mien.emotion.presets import PRESETS, preset
@@ -19,6 +21,7 @@ BEGIN = f"<!-- from the registry; written by `{COMMAND}`, not by hand -->"
 END = "<!-- end of the generated part -->"
 KINDS = {
     "pose": "changes poses frame by frame: follows strength, body parts and time spans",
+    "rhythm": "changes when the whole body does things: follows strength and time spans, not body parts",
     "time": "changes frames or the whole clip: strength, parts and spans do not apply",
     "repair": "mends the whole clip, given the motion before the edits",
 }
@@ -140,6 +143,28 @@ def evidence() -> list[str]:
     return lines[:-1]
 
 
+def checks() -> list[str]:
+    """Return the table of all checks with what they allow."""
+    head = [
+        "| check | what is measured | an edit may have | a capture by itself |",
+        "| --- | --- | --- | --- |",
+    ]
+    rows = []
+    for c in CHECKS.values():
+        unit = f" {c.unit}".rstrip()
+        source = {0.0: "", 1.0: "the source's value + "}.get(
+            c.factor, f"{c.factor:g} x the source's value + "
+        )
+        when = "on average" if c.overall else f"for {c.lasting:g} s" if c.lasting else "in any frame"
+        alone = (
+            "not judged" if c.needs_source else f"up to {c.limit:g}{unit} but for {c.share:.0%} of its frames"
+        )
+        alone = f"up to {c.limit:g}{unit} on average" if c.overall and not c.needs_source else alone
+        what = f"{c.label}{',' if unit else ''}{unit}"
+        rows.append(f"| `{c.name}` | {what} | {source}{c.tolerance:g}{unit}, {when} | {alone} |")
+    return head + rows
+
+
 def filled(written: str, made: list[str]) -> str:
     """Return a document with the part between the marks brought up to date; without marks, added."""
     block = "\n".join([BEGIN, "", *made, "", END])
@@ -152,6 +177,7 @@ def filled(written: str, made: list[str]) -> str:
 def texts() -> dict[Path, str]:
     """Return every generated file and what it should hold."""
     made = {ROOT / "README.md": words(own=True), ROOT / "docs" / "presets.md": evidence()}
+    made[ROOT / "docs" / "checks.md"] = checks()
     for name, edit in EDITS.items():
         made[ROOT / "docs" / "methods" / f"{name}.md"] = [
             *facts(edit, up="../../"),

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from . import render as render
     from . import samples as samples
+    from .analysis.checks.report import check as check
     from .analysis.compare import before_after as before_after
     from .analysis.compare import compare as compare
     from .emotion.files import read_recipe as read_recipe
@@ -49,6 +50,7 @@ _HOME = {
     "Step": ".recipe",
     "apply": ".emotion.resolve",
     "before_after": ".analysis.compare",
+    "check": ".analysis.checks.report",
     "compare": ".analysis.compare",
     "edit": ".emotion.resolve",
     "load": ".formats",

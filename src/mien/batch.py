@@ -142,5 +142,21 @@ def how_it_was_read(sidecar: Path) -> tuple[dict[str, Any], dict[str, str]]:
     return {"fps": fps, "salvage": salvage}, known_roles(roles, f"{sidecar}: provenance.roles")
 
 
+def source_of(clip: Path) -> Path | None:
+    """Return the clip that ``clip`` was made from, by the recipe file beside it, if both are still there.
+
+    Only if it is the very file: one that was changed since is another clip.
+    """
+    recipe = sidecar_of(clip)
+    if not recipe.exists():
+        return None
+    about = read_provenance(recipe)
+    name, digest = about.get("input"), about.get("input_sha256")
+    source = clip.with_name(Path(name).name) if isinstance(name, str) else None
+    if source is None or not source.is_file():
+        return None
+    return source if hashlib.sha256(source.read_bytes()).hexdigest() == digest else None
+
+
 def _leave_interrupts_to_parent() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -77,6 +77,8 @@ def public() -> set[str]:
         folder = ROOT / "src" / "mien" / package
         stems = {p.stem for p in folder.glob("*.py")} | {p.parent.name for p in folder.glob("*/__init__.py")}
         names |= {f"mien.{package}.{stem}" for stem in stems if not stem.startswith("_")}
+        inner = [p for p in folder.glob("*/*.py") if not p.stem.startswith("_")]
+        names |= {f"mien.{package}.{p.parent.name}.{p.stem}" for p in inner}
     return names - {"mien.__version__", "mien.render", "mien.samples"}
 
 

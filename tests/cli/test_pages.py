@@ -53,7 +53,7 @@ def done(line: str, run: Run) -> None:
             Path(file).write_text(result.stdout, encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", ["README.md", "docs/quickstart.md", "docs/presets.md"])
+@pytest.mark.parametrize("name", ["README.md", "docs/quickstart.md", "docs/presets.md", "docs/checks.md"])
 def test_commands_work_line_by_line_and_python_twice(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:

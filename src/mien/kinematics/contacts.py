@@ -89,7 +89,7 @@ def detect_points(points: Array, body: Body, frame_time: float) -> Contacts:
     """Return the contacts of foot points (T, 2, 2, 3): see ``detect``."""
     leg = body.leg_length
     height = points @ body.up
-    level = _level(height, leg)
+    level = standing_level(height, leg)
     step, seconds = _step(points, frame_time)
     speed = _length(step - (step @ body.up)[..., None] * body.up) / seconds
     fast = max(SPEED * leg, 0.06 * float(np.percentile(speed, 95)))
@@ -103,8 +103,8 @@ def detect_points(points: Array, body: Body, frame_time: float) -> Contacts:
     return Contacts(_runs(planted, True, max(shortest - 1, 0)))
 
 
-def _level(height: Array, leg: float) -> Array:
-    """Return the standing height (2, 2) of each point: its own 5th percentile.
+def standing_level(height: Array, leg: float) -> Array:
+    """Return the standing height (2, 2) of each point from its heights (T, 2, 2): its own 5th percentile.
 
     A foot that never comes near the floor that the other stands on is judged by the other's level.
     """

@@ -4,7 +4,7 @@ Arrays are worked on joint by joint, each component a contiguous row over frames
 than matrices, and the whole clip goes through in one pass.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -18,10 +18,20 @@ def fk(rotations: Array, translations: Array, parents: Integers) -> tuple[Array,
 
     ``W_j = W_parent R_j`` and ``p_j = p_parent + W_parent t_j``.
     """
-    local = np.ascontiguousarray(np.moveaxis(rotations, 0, -1))  # (J, 4, T)
-    moved = np.ascontiguousarray(np.moveaxis(translations, 0, -1))  # (J, 3, T)
+    local = np.ascontiguousarray(np.moveaxis(rotations, 0, -1))
+    moved = np.ascontiguousarray(np.moveaxis(translations, 0, -1))
+    world, position = fk_rows(local, moved, parents, range(len(parents)))
+    return np.moveaxis(world, -1, 0), np.moveaxis(position, -1, 0)
+
+
+def fk_rows(local: Array, moved: Array, parents: Integers, joints: Iterable[int]) -> tuple[Array, Array]:
+    """Return what ``fk`` does from and in rows over frames: ``(J, 4, T)`` and ``(J, 3, T)``.
+
+    Only of ``joints``, in order, with those above them; the rows of others hold nothing of meaning.
+    """
     world, position = np.empty_like(local), np.empty_like(moved)
-    for j, p in enumerate(parents):
+    for j in joints:
+        p = parents[j]
         if p < 0:
             world[j], position[j] = local[j], moved[j]
             continue
@@ -36,7 +46,7 @@ def fk(rotations: Array, translations: Array, parents: Integers) -> tuple[Array,
         position[j, 0] = position[p, 0] + u + w * s + y * r - z * t
         position[j, 1] = position[p, 1] + v + w * t + z * s - x * r
         position[j, 2] = position[p, 2] + n + w * r + x * t - y * s
-    return np.moveaxis(world, -1, 0), np.moveaxis(position, -1, 0)
+    return world, position
 
 
 def world(motion: Motion) -> tuple[Array, Array]:

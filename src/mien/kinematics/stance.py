@@ -25,6 +25,7 @@ ELBOW_BEND = np.radians(10.0)  # relaxed elbows are never quite straight
 NECK = np.radians(10.0)  # a neck taken from the clip is set to lean this far to the front
 STILL = 0.01  # radians: a joint that turns less in a whole clip is part of the file's axes
 LEAN = np.radians(5.0)  # an upright trunk, hip joints to shoulder joints, leans no more than this
+LOW = 0.02  # legs: an ankle no higher than this above its lowest belongs to a foot that is flat
 NEAR_AXIS = np.radians(15.0)  # rest poses this near to a world axis mean that axis
 
 
@@ -59,7 +60,8 @@ def neutral(skeleton: Skeleton, body: Tree, local: Array, offsets: Array, roles:
         start[above] = axes
     pose = _Pose(start, offsets, skeleton)
     own_up = _near_axis(body_up(rest, roles)) if standing else _trunk(pose.points, roles)
-    stand(pose, roles, own_up, up, forward)
+    feet = {} if standing else flat_feet(points, body.world, roles, up, forward)
+    stand(pose, roles, own_up, up, forward, feet)
     if not standing and {"neck", "head"} <= roles.keys():
         pose.aim(roles["neck"], roles["head"], np.cos(NECK) * up + np.sin(NECK) * forward)
     return Stance(up, forward, pose.local(), pose.heights(up))
@@ -156,6 +158,29 @@ def calm_pose(local: Array, points: Array, roles: Roles, up: Array) -> Array:
     return quaternion.normalise((chosen * sign[..., None]).sum(axis=0))
 
 
+def flat_feet(points: Array, world: Array, roles: Roles, up: Array, forward: Array) -> dict[str, Array]:
+    """Return side -> the world rotation (4,) of the ankle of a foot that stands flat, facing ``forward``.
+
+    From positions (F, J, 3) and world rotations (F, J, 4): a foot is flat where its ankle is lowest, as it
+    rises when the foot rolls over heel or toe. The mean, weighed by how near to the lowest the ankle is. A
+    foot that is never down beside the other is left out.
+    """
+    facing = _facing(points, roles, up)
+    yaw = np.arctan2(np.cross(facing, forward) @ up, facing @ forward)
+    ankles = [roles[f"{side}_ankle"] for side in SIDES]
+    reach = np.linalg.norm(points[:, roles["left_hip"]] - points[:, ankles[0]], axis=-1).max()
+    heights = points[:, ankles] @ up / reach
+    out = {}
+    for side, ankle, height in zip(SIDES, ankles, heights.T, strict=True):
+        if height.min() - heights.min() > LOW:
+            continue  # never down where the other foot stands
+        weight = np.exp(-0.5 * ((height - height.min()) / LOW) ** 2)
+        seen = quaternion.multiply(quaternion.exp(yaw[:, None] * up), world[:, ankle])
+        sign = np.where(seen @ seen[np.argmax(weight)] < 0, -1.0, 1.0)
+        out[side] = quaternion.normalise((seen * (sign * weight)[:, None]).sum(axis=0))
+    return out
+
+
 class _Pose:
     """One pose in world axes; turning a joint takes along what hangs on it."""
 
@@ -184,8 +209,13 @@ class _Pose:
         return np.concatenate([self.points, ends]) @ up
 
 
-def stand(pose: _Pose, roles: Roles, own_up: Array, up: Array, forward: Array) -> None:
-    """Stand a pose upright: ``own_up`` along ``up``, facing ``forward``, legs straight down, arms down."""
+def stand(
+    pose: _Pose, roles: Roles, own_up: Array, up: Array, forward: Array, feet: Mapping[str, Array]
+) -> None:
+    """Stand a pose upright: ``own_up`` along ``up``, facing ``forward``, legs straight down, arms down.
+
+    ``feet`` side -> how the ankle is turned then, in world axes; a foot that it lacks keeps the way it stood.
+    """
     pose.turn(roles["hips"], quaternion.between(own_up, up))
     upright = quaternion.log(quaternion.between(_trunk(pose.points, roles), up))
     angle = float(np.linalg.norm(upright))
@@ -194,14 +224,14 @@ def stand(pose: _Pose, roles: Roles, own_up: Array, up: Array, forward: Array) -
     yaw = np.arctan2(np.cross(facing, forward) @ up, facing @ forward)
     pose.turn(roles["hips"], quaternion.exp(yaw * up))
     for side, outward in zip(SIDES, (1.0, -1.0), strict=True):
-        _leg_down(pose, roles, side, up)
+        _leg_down(pose, roles, side, up, feet.get(side))
         _arm_down(pose, roles, side, up, forward, outward * np.cross(up, forward))
 
 
-def _leg_down(pose: _Pose, roles: Roles, side: str, up: Array) -> None:
-    """Straighten a leg; the foot keeps the way it stood."""
+def _leg_down(pose: _Pose, roles: Roles, side: str, up: Array, flat: Array | None) -> None:
+    """Straighten a leg; the foot is set flat, or keeps the way it stood."""
     hip, knee, ankle = (roles[f"{side}_{r}"] for r in ("hip", "knee", "ankle"))
-    foot = pose.world[ankle].copy()
+    foot = pose.world[ankle].copy() if flat is None else flat
     pose.aim(hip, knee, -up)
     pose.aim(knee, ankle, -up)
     pose.turn(ankle, quaternion.multiply(foot, quaternion.conjugate(pose.world[ankle])))

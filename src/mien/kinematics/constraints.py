@@ -1,0 +1,257 @@
+"""The seven things that a constraint may ask of points of a body (Gleicher 1998), with error and Jacobian.
+
+A point is fixed to a joint. A constraint says how far its points, in world axes, are from what it asks
+(``error``) and how that changes when they move (``jacobian``); ``solver.solve`` turns the joints so that the
+errors vanish. Errors are lengths in the clip's unit, of angles and directions at the end of a lever. What is
+asked may change over time: arrays have a row for every frame, or one row for all.
+
+====================  ============================================================================
+`ParameterRange`      the angle between two bones stays in a range
+`AtPosition`          a point is at a place
+`InRegion`            a point stays on one side of a plane
+`SamePosition`        a point stays where it is, wherever that is, for a while
+`OnPath`              a point goes along with another point
+`AtDistance`          two points are so far apart, or at least, or at most
+`Orientation`         the line from one point to another has a direction
+====================  ============================================================================
+"""
+
+from dataclasses import dataclass, field
+from typing import Literal, NamedTuple, Protocol
+
+import numpy as np
+
+from ..typing import Array, Integers
+
+
+class Point(NamedTuple):
+    """A point fixed to a joint: ``offset`` (3,), or (T, 3) where it changes, in the joint's own axes."""
+
+    joint: int
+    offset: Array = np.zeros(3)
+
+
+class Constraint(Protocol):
+    """What the solver asks of a constraint on K points that gives m numbers.
+
+    ``places`` (F, K, 3) are the points at the ``frames`` (F,) of the clip. ``share`` (T,) or (1,) is how much
+    of the error that is there at first is to vanish.
+    """
+
+    share: Array
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The points that it is about."""
+
+    def error(self, places: Array, frames: Integers) -> Array:
+        """Return how far from what is asked the points are (F, m)."""
+
+    def jacobian(self, places: Array, frames: Integers) -> Array:
+        """Return how the error changes with the points (F, m, K, 3)."""
+
+
+ALL = np.ones(1)
+
+
+def of_frames(values: Array, frames: Integers) -> Array:
+    """Return the rows of some frames; of one row for all, that row."""
+    return values[frames] if len(values) > 1 else values
+
+
+@dataclass(frozen=True, eq=False)
+class AtPosition:
+    """``x = target``: ``point`` is at ``target`` (T, 3) or (1, 3)."""
+
+    point: Point
+    target: Array
+    share: Array = field(default_factory=lambda: ALL)
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The point."""
+        return (self.point,)
+
+    def error(self, places: Array, frames: Integers) -> Array:
+        """Return ``x - target`` (F, 3)."""
+        return places[:, 0] - of_frames(self.target, frames)
+
+    def jacobian(self, places: Array, frames: Integers) -> Array:
+        """Return the identity (F, 3, 1, 3)."""
+        return np.broadcast_to(np.eye(3)[:, None], (len(places), 3, 1, 3))
+
+
+@dataclass(frozen=True, eq=False)
+class InRegion:
+    """``n x >= level`` (T,) or (1,): ``point`` is on the side of a plane that ``normal`` (3,) points to."""
+
+    point: Point
+    normal: Array
+    level: Array
+    share: Array = field(default_factory=lambda: ALL)
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The point."""
+        return (self.point,)
+
+    def error(self, places: Array, frames: Integers) -> Array:
+        """Return ``min(n x - level, 0)`` (F, 1)."""
+        return np.minimum(places[:, 0] @ self.normal - of_frames(self.level, frames), 0.0)[:, None]
+
+    def jacobian(self, places: Array, frames: Integers) -> Array:
+        """Return ``n`` where the point is out of the region (F, 1, 1, 3)."""
+        return (self.error(places, frames) < 0.0)[:, :, None, None] * self.normal
+
+
+@dataclass(frozen=True, eq=False)
+class SamePosition:
+    """``x(t) = mean x``: ``point`` stays put in each of the ``spans`` of frames ``(start, stop)``."""
+
+    point: Point
+    spans: tuple[tuple[int, int], ...]
+    share: Array = field(default_factory=lambda: ALL)
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The point."""
+        return (self.point,)
+
+    def error(self, places: Array, frames: Integers) -> Array:
+        """Return ``x - mean x`` (F, 3) over what is given of each span; zero outside."""
+        out = np.zeros((len(places), 3))
+        for start, stop in self.spans:
+            inside = (frames >= start) & (frames < stop)
+            if inside.any():
+                out[inside] = places[inside, 0] - places[inside, 0].mean(axis=0)
+        return out
+
+    def jacobian(self, places: Array, frames: Integers) -> Array:
+        """Return the identity inside the spans (F, 3, 1, 3): the mean is taken as fixed."""
+        inside = np.any([(frames >= a) & (frames < b) for a, b in self.spans], axis=0)
+        return inside[:, None, None, None] * np.eye(3)[:, None]
+
+
+@dataclass(frozen=True, eq=False)
+class OnPath:
+    """``x = y + offset``: ``point`` goes along with ``leader``, ``offset`` (T, 3) or (1, 3) away."""
+
+    point: Point
+    leader: Point
+    offset: Array
+    share: Array = field(default_factory=lambda: ALL)
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """Both points."""
+        return (self.point, self.leader)
+
+    def error(self, places: Array, frames: Integers) -> Array:
+        """Return ``x - y - offset`` (F, 3)."""
+        return places[:, 0] - places[:, 1] - of_frames(self.offset, frames)
+
+    def jacobian(self, places: Array, frames: Integers) -> Array:
+        """Return the identity for the point and its negative for the leader (F, 3, 2, 3)."""
+        both = np.stack([np.eye(3), -np.eye(3)], axis=1)
+        return np.broadcast_to(both, (len(places), *both.shape))
+
+
+@dataclass(frozen=True, eq=False)
+class AtDistance:
+    """``|x - y| = distance`` (T,) or (1,), or at least, or at most so far."""
+
+    one: Point
+    other: Point
+    distance: Array
+    how: Literal["equal", "least", "most"] = "equal"
+    share: Array = field(default_factory=lambda: ALL)
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """Both points."""
+        return (self.one, self.other)
+
+    def error(self, places: Array, frames: Integers) -> Array:
+        """Return ``|x - y| - distance`` (F, 1), zero where that is allowed."""
+        apart = _length(places[:, 0] - places[:, 1]) - of_frames(self.distance, frames)[:, None]
+        if self.how == "least":
+            return np.minimum(apart, 0.0)
+        return np.maximum(apart, 0.0) if self.how == "most" else apart
+
+    def jacobian(self, places: Array, frames: Integers) -> Array:
+        """Return the direction from one to the other and back (F, 1, 2, 3), zero where nothing is asked."""
+        line = places[:, 0] - places[:, 1]
+        line = line / np.maximum(_length(line), 1e-300)
+        wanted = (self.error(places, frames) != 0.0) | (self.how == "equal")
+        return np.stack([line, -line], axis=1)[:, None] * wanted[..., None, None]
+
+
+@dataclass(frozen=True, eq=False)
+class Orientation:
+    """``(x - y) / |x - y| = direction``, unit (T, 3) or (1, 3), measured at the end of a ``lever``."""
+
+    one: Point
+    other: Point
+    direction: Array
+    lever: float
+    share: Array = field(default_factory=lambda: ALL)
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """Both points."""
+        return (self.one, self.other)
+
+    def error(self, places: Array, frames: Integers) -> Array:
+        """Return ``lever ((x - y) / |x - y| - direction)`` (F, 3)."""
+        line = places[:, 0] - places[:, 1]
+        return self.lever * (line / np.maximum(_length(line), 1e-300) - of_frames(self.direction, frames))
+
+    def jacobian(self, places: Array, frames: Integers) -> Array:
+        """Return ``lever (1 - u u') / |x - y|`` and its negative (F, 3, 2, 3)."""
+        line = places[:, 0] - places[:, 1]
+        length = np.maximum(_length(line), 1e-300)
+        unit = line / length
+        across = self.lever * (np.eye(3) - unit[:, :, None] * unit[:, None]) / length[..., None]
+        return np.stack([across, -across], axis=2)
+
+
+@dataclass(frozen=True, eq=False)
+class ParameterRange:
+    """``low <= angle <= high``: the angle at ``middle`` between its lines to ``one`` and ``other``, radians.
+
+    Measured at the end of a ``lever``. So a knee bends neither too far nor beyond straight.
+    """
+
+    one: Point
+    middle: Point
+    other: Point
+    low: float
+    high: float
+    lever: float
+    share: Array = field(default_factory=lambda: ALL)
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The three points."""
+        return (self.one, self.middle, self.other)
+
+    def error(self, places: Array, frames: Integers) -> Array:
+        """Return ``lever`` times how far the angle is above ``high`` or (negative) below ``low`` (F, 1)."""
+        u, v = places[:, 0] - places[:, 1], places[:, 2] - places[:, 1]
+        angle = np.arctan2(_length(np.cross(u, v))[:, 0], np.einsum("fi,fi->f", u, v))
+        return self.lever * (np.maximum(angle - self.high, 0.0) + np.minimum(angle - self.low, 0.0))[:, None]
+
+    def jacobian(self, places: Array, frames: Integers) -> Array:
+        """Return the change of the angle with each point (F, 1, 3, 3), zero inside the range."""
+        u, v = places[:, 0] - places[:, 1], places[:, 2] - places[:, 1]
+        normal = np.cross(u, v)
+        normal = normal / np.maximum(_length(normal), 1e-300)
+        first = np.cross(u, normal) / np.maximum(np.einsum("fi,fi->f", u, u), 1e-300)[:, None]
+        last = np.cross(normal, v) / np.maximum(np.einsum("fi,fi->f", v, v), 1e-300)[:, None]
+        change = self.lever * np.stack([first, -first - last, last], axis=1)
+        return np.asarray(change[:, None] * (self.error(places, frames) != 0.0)[..., None, None])
+
+
+def _length(v: Array) -> Array:
+    """Return the lengths (F, 1) of vectors (F, 3)."""
+    return np.sqrt(np.einsum("fi,fi->f", v, v))[:, None]
