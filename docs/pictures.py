@@ -51,6 +51,35 @@ def timing() -> "Image":
     return render.compare(rows, poses=12, views=["front"])
 
 
+def waveshape() -> "Image":
+    """Small movement less, small movement more, and a limit."""
+    calm = walk()
+    rows = {
+        "small 0.3": done(calm, Step("waveshape", {"small": 0.3})),
+        "small 1.8, large 0.6": done(calm, Step("waveshape", {"small": 1.8, "large": 0.6})),
+        "limit 20": done(calm, Step("waveshape", {"limit": 20})),
+    }
+    return render.compare(rows, against=calm)
+
+
+def displacement() -> "Image":
+    """Show a walk in which the walker glances down, then lifts a hand and looks at it."""
+    calm = walk()
+    hand = "left_shoulder -40 0 10; left_elbow -75 0 0; neck 8 15 0; head 8 15 0"
+    keys = f"0.2 none | 0.6 neck 15 0 0; head 20 0 0 | 1 none | 1.4 {hand} | 1.6 {hand} | 2 none"
+    return render.compare(
+        {"head down, then a hand up": done(calm, Step("displacement", {"keys": keys}))}, against=calm, poses=8
+    )
+
+
+def tremor() -> "Image":
+    """Show a fifth of a second: hands and head shake, hips and legs do not."""
+    step = Step("trim", {"start": 0.4, "end": 0.6})
+    still = samples.still().motion
+    rows = {f"amount {a:g}": mien.apply(still, [Step("tremor", {"amount": a}), step]) for a in (3.0, 8.0)}
+    return render.compare(rows, against=mien.apply(still, [step]), poses=6, views=["front"])
+
+
 def foot_plant() -> "Image":
     """Show one step with shorter paths, seen by a camera that stays: without and with the repair."""
     short = mien.apply(walk(), [Step("path_length", {"mid": 0.4})])
@@ -125,6 +154,7 @@ def below(*images: "Image") -> "Image":
 
 PICTURES: Mapping[str, Callable[[], "Image"]] = {
     **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, foot_plant)},
+    **{f"methods/{f.__name__}": f for f in (waveshape, displacement, tremor)},
     **{f"methods/{f.__name__}": f for f in (trim, resample, mirror, in_place)},
     "presets": presets,
 }

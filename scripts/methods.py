@@ -8,6 +8,7 @@ edit or the preset, then run this.
 
 import sys
 from pathlib import Path
+from shlex import quote
 
 import mien.edits
 from mien.analysis.checks.report import CHECKS
@@ -26,7 +27,14 @@ KINDS = {
     "repair": "mends the whole clip, given the motion before the edits",
 }
 # Values that show an edit; without a line here the first parameter goes a quarter of the way up.
-SHOWN = {"resample": {"fps": 30}, "trim": {"start": 0.5, "end": 2.0}, "path_length": {"mid": 1.5}}
+SHOWN = {
+    "resample": {"fps": 30},
+    "trim": {"start": 0.5, "end": 2.0},
+    "path_length": {"mid": 1.5},
+    "waveshape": {"small": 0.4},
+    "displacement": {"keys": "0.5 none | 1 head 25 0 0 | 2 none"},
+    "tremor": {"amount": 2.0},
+}
 
 
 def example(edit: Edit) -> dict[str, object]:
@@ -42,7 +50,8 @@ def example(edit: Edit) -> dict[str, object]:
 
 def command(edit: Edit) -> str:
     """Return a command line that does the example."""
-    flags = [f"{flag_name(edit.name, name)} {_plain(value)}" for name, value in example(edit).items()]
+    given = {flag_name(edit.name, name): quote(_plain(value)) for name, value in example(edit).items()}
+    flags = [f"{flag} {value}" for flag, value in given.items()]
     own = flag_name(edit.name)
     if not flags and edit.kind == "repair":
         return "mien edit walk.bvh --emotion sad   # repairs follow every pose edit by themselves"
@@ -51,7 +60,8 @@ def command(edit: Edit) -> str:
 
 def call(edit: Edit) -> str:
     """Return a line of Python that does the example."""
-    values = ", ".join(f'"{name}": {_plain(value)}' for name, value in example(edit).items())
+    given = {n: f'"{v}"' if isinstance(v, str) else _plain(v) for n, v in example(edit).items()}
+    values = ", ".join(f'"{name}": {value}' for name, value in given.items())
     return f'mien.apply(walk, [mien.Step("{edit.name}", {{{values}}})])'
 
 

@@ -113,6 +113,19 @@ def test_a_recipe_file_and_a_pose_file(folder: Path, run: Run) -> None:
     assert "head" in posture.parameters["pose"], "the recipe holds the pose, not the name of a file"
 
 
+def test_keys_in_a_line_or_a_file_that_names_pose_files(folder: Path, run: Run) -> None:
+    assert run("pose", "walk.bvh", "deeper/tired_walk.bvh", "-o", "tired.toml").exit_code == 0
+    Path("keys.toml").write_text(
+        '[[keys]]\ntime = 0.5\npose = "tired.toml"\n[[keys]]\ntime = 1\npose = "none"\n', encoding="utf-8"
+    )
+    assert run("edit", "walk.bvh", "--displacement-keys", "keys.toml", "-o", "file.bvh").exit_code == 0
+    keys = read_recipe("file.bvh.recipe.toml").steps[0].parameters["keys"]
+    assert keys.startswith("0.5 hips "), "the recipe holds the keys, not the name of a file"
+    assert keys.endswith(" | 1.0 none")
+    assert run("edit", "walk.bvh", "--displacement-keys", keys, "-o", "line.bvh").exit_code == 0
+    assert Path("line.bvh").read_bytes() == Path("file.bvh").read_bytes()
+
+
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_folders_and_patterns_to_a_folder(folder: Path, run: Run, jobs: int) -> None:
     result = run("edit", ".", "-e", "tired", "-o", "out", "--jobs", jobs, "--no-sidecar")

@@ -35,6 +35,8 @@ BAD_USAGE = {
     "pose to stdout": (["pose", "walk.bvh", "brisk.bvh", "-o", "-"], "written to a file"),
     "missing ghost": (["render", "walk.bvh", "--against", "wlak.bvh"], "wlak.bvh: there is no such file"),
     "missing pose": (["edit", "walk.bvh", "--posture-pose", "p.toml"], "p.toml: there is no such file"),
+    "missing keys": (["edit", "walk.bvh", "--displacement-keys", "k.toml"], "k.toml: there is no such file"),
+    "wrong keys": (["edit", "walk.bvh", "--displacement-keys", "1 nod"], "keys: at 1 s: there is no pose"),
     "file as folder": (["render", "walk.bvh", "-o", "walk.bvh/x.png"], "walk.bvh is a file, not a folder"),
     "unknown flag": (["edit", "walk.bvh", "--posture-hed", "3"], "--posture-head"),
     "no number": (["edit", "walk.bvh", "--posture-head", "low"], "--posture-head"),
@@ -151,6 +153,8 @@ def test_a_clip_or_a_pose_given_as_recipe(folder: Path, run: Run) -> None:
     assert result.stderr == "mien: walk_sad.bvh: is a clip; its recipe is walk_sad.bvh.recipe.toml\n"
     assert run("pose", "walk.bvh", "brisk.bvh", "-o", "pose.toml").exit_code == 0
     assert "pose.toml: is a pose file" in run("edit", "walk.bvh", "--recipe", "pose.toml").stderr
+    Path("keys.toml").write_text('[[keys]]\ntime = 1\npose = "none"\n', encoding="utf-8")
+    assert "keys.toml: is a file of keys" in run("edit", "walk.bvh", "--recipe", "keys.toml").stderr
 
 
 def test_one_bad_clip_among_good_ones(folder: Path, run: Run) -> None:

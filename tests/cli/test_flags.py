@@ -36,7 +36,7 @@ def test_an_edit_that_works_as_it_is_has_a_flag_of_its_own(run: Callable[..., Re
     shown = run("edit", "--help").stdout
     assert " --mirror " in shown
     assert " --in-place " in shown
-    for name in ("posture", "path_length", "trim", "resample"):
+    for name in ("posture", "path_length", "trim", "resample", "displacement", "tremor", "waveshape"):
         assert f" {flag_name(name)} " not in shown, f"{name} needs a value to do something"
 
 
@@ -45,6 +45,12 @@ def test_flags_alone_make_steps_in_the_right_order_with_the_feet_put_back() -> N
     wanted = ["trim", "mirror", "path_length", "timing", "posture", "foot_plant", "in_place"]
     assert edits(compose((), flags, foot_plant=True)) == wanted
     assert edits(compose((), flags, foot_plant=False)) == [n for n in wanted if n != "foot_plant"]
+
+
+def test_what_is_added_to_a_movement_comes_after_what_shapes_it() -> None:
+    flags = {name: {} for name in ("tremor", "posture", "displacement", "timing", "waveshape", "path_length")}
+    wanted = ["path_length", "waveshape", "timing", "posture", "displacement", "tremor"]
+    assert edits(compose((), flags, foot_plant=False)) == wanted
 
 
 def test_no_feet_are_put_back_when_no_pose_is_edited() -> None:

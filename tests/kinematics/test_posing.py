@@ -10,7 +10,7 @@ from mien import samples
 from mien.kinematics.body import Body
 from mien.kinematics.fk import world
 from mien.kinematics.poses import Pose
-from mien.kinematics.posing import MOST_BEND, add_pose, soft_stop
+from mien.kinematics.posing import MOST_BEND, add_pose, add_turns, soft_stop
 from mien.motion import Motion
 from mien.rotations import quaternion as quat
 
@@ -160,3 +160,21 @@ def test_soft_stop_has_no_kink() -> None:
     x = np.linspace(0, 3, 30001)
     slope = np.gradient(soft_stop(x, np.full_like(x, 1.0)), x)
     assert np.abs(np.diff(slope)).max() < 1e-3
+
+
+@pytest.mark.parametrize("method", ["anatomical", "additive", "body_fixed"])
+def test_turns_that_change_over_time_are_the_pose_of_each_frame(method: str) -> None:
+    """Slow twin: at every tenth frame, the whole clip with that frame's pose."""
+    motion = samples.walk(seconds=1.0).motion
+    body = Body.of(motion)
+    rng = np.random.default_rng(4)
+    turns = {
+        segment: rng.uniform(-40, 40, (len(motion), 3))
+        for segment in ("hips", "trunk", "neck", "left_collar", "left_shoulder", "left_elbow", "right_knee")
+    }
+    found = add_turns(motion, body, turns, weights={}, method=method)
+    for frame in range(0, len(motion), 10):
+        pose = Pose({segment: tuple(turn[frame].tolist()) for segment, turn in turns.items()})
+        alone = posed(motion, pose, method).rotations[frame]
+        same = np.abs(np.einsum("ji,ji->j", found[frame], alone))
+        np.testing.assert_allclose(same, 1.0, atol=1e-12)

@@ -25,6 +25,10 @@ from mien.samples import SAMPLES, SKELETONS
 
 # Edit -> parameters to try beside the defaults. Every new edit gets a line here.
 CASES: Mapping[str, list[dict[str, Any]]] = {
+    "displacement": [
+        {"keys": "0.4 head 20 0 0; trunk 8 0 0 | 1 none | 1.8 elbows_out"},
+        {"keys": "0.5 arms_legs_in | 2 head_down", "ends": "hold", "method": "body_fixed"},
+    ],
     "foot_plant": [{}, {"travel": False}],
     "in_place": [{}, {"amount": 0.5}],
     "mirror": [{}],
@@ -36,7 +40,9 @@ CASES: Mapping[str, list[dict[str, Any]]] = {
     ],
     "resample": [{"fps": 40}],
     "timing": [{"acceleration": 0.6}, {"acceleration": -0.8}, {"acceleration": 0.5, "limbs": ("head",)}],
+    "tremor": [{"amount": 3}, {"amount": 5, "low": 0.3, "high": 1, "seed": 7}],
     "trim": [{"end": 1.5}],
+    "waveshape": [{"small": 0.3}, {"small": 1.8, "large": 0.6, "border": 15}, {"limit": 20}],
 }
 # Edit without a neutral value -> parameters that leave the motion as it is, or why there are none.
 NEUTRAL: Mapping[str, dict[str, Any] | str] = {
@@ -49,6 +55,8 @@ NEUTRAL: Mapping[str, dict[str, Any] | str] = {
 EXCUSED: Mapping[tuple[str, str], str] = {
     ("timing", "result_does_not_depend_on_the_skeleton"): "it times the tip of the hand, and skeletons have "
     "hands of different lengths, so that pauses fall some hundredths of a second apart",
+    ("tremor", "mirror_commutes"): "left and right shake by noise of their own; if that commuted with a "
+    "mirror, both hands would shake as one",
 }
 
 # Name of a sample, the form it is written in: three skeletons, units, axes, rates and headings.

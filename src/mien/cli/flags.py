@@ -15,7 +15,10 @@ from .signature import with_parameters
 _JOIN = "__"  # between edit and parameter in the name that a flag has inside
 
 # The order in which edits given by flags are done; an edit that is not named follows its kind.
-ORDER = ("trim", "resample", "mirror", "path_length", "timing", "posture", "foot_plant", "in_place")
+ORDER = (
+    *("trim", "resample", "mirror", "path_length", "waveshape", "timing"),
+    *("posture", "displacement", "tremor", "foot_plant", "in_place"),
+)
 _LAST_OF_KIND = {"time": "mirror", "rhythm": "mirror", "pose": "posture", "repair": "foot_plant"}
 
 
@@ -82,10 +85,15 @@ def _options(edit: Edit) -> list[inspect.Parameter]:
 
 
 def _works_as_it_is(edit: Edit) -> bool:
-    """Return whether the edit does something with its defaults: nothing to set, or none is neutral."""
-    scaled = [p for p in edit.parameters.values() if p.about.neutral is not None]
+    """Return whether the edit does something with its defaults: nothing to set, or none is neutral.
+
+    One that takes free text does nothing without it.
+    """
+    known = edit.parameters.values()
+    scaled = [p for p in known if p.about.neutral is not None]
+    free_text = any(p.kind is str and not p.choices for p in known)
     nothing_to_set = bool(scaled) and all(p.default != p.about.neutral for p in scaled)
-    return nothing_to_set or not edit.parameters
+    return (nothing_to_set and not free_text) or not known
 
 
 def _option(edit: Edit, parameter: Parameter) -> inspect.Parameter:
@@ -149,8 +157,17 @@ def _value(flag: str, parameter: Parameter, value: Any) -> Any:
         return read_varying(flag, value)
     if parameter.kind is tuple:
         return tuple(item.strip() for item in value.split(",") if item.strip())
-    if parameter.name == "pose" and str(value).endswith(".toml"):
+    return _from_file(parameter, value) if str(value).endswith(".toml") else value
+
+
+def _from_file(parameter: Parameter, path: str) -> str:
+    """Return what a recipe holds in place of a file: the pose, or the keys, themselves."""
+    if parameter.name == "pose":
         from ..kinematics.poses import read_pose
 
-        return str(read_pose(value))  # a recipe holds the pose itself
-    return value
+        return str(read_pose(path))
+    if parameter.name == "keys":
+        from ..kinematics.keyed_poses import format_keys, read_keys
+
+        return format_keys(read_keys(path))
+    return path

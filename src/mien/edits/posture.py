@@ -17,7 +17,7 @@ import numpy as np
 from ..kinematics.body import SIDES, Body
 from ..kinematics.fk import world
 from ..kinematics.heading import heading_rotation, hips_frame
-from ..kinematics.poses import Pose, named_pose, neutral_world
+from ..kinematics.poses import named_pose, neutral_world, posture_pose
 from ..kinematics.posing import Method, add_pose, soft_stop
 from ..motion import Motion
 from ..rotations import quaternion
@@ -96,7 +96,7 @@ def posture(
     turned, positions = world(motion)
     facing = heading_rotation(positions, body)
     stopped = _stopped(values, _aside(body, positions, facing), _head_down(motion, body, turned))
-    whole = _pose(stopped) + captured * amount
+    whole = posture_pose(stopped) + captured * amount
     weights = _fade_out(motion, body, positions, facing) if fade else {}
     rotations = add_pose(motion, body, whole, weights=weights, method=method)
     translations = motion.translations
@@ -150,23 +150,6 @@ def _aside(body: Body, positions: Array, facing: Array) -> dict[str, float]:
         left, right = np.median(np.einsum("tei,ti->te", places, across), axis=0)
         out[limb] = float(min(left, -right))
     return out
-
-
-def _pose(values: Mapping[str, float]) -> Pose:
-    """Return the turns of each segment for the values of the parameters, both sides alike."""
-    head, trunk, lean = values["head"], values["trunk"], values["lean"]
-    turns = {"hips": (lean, 0.0, 0.0), "trunk": (trunk, 0.0, 0.0)}
-    turns |= {"neck": (0.5 * head, 0.0, 0.0), "head": (0.5 * head, 0.0, 0.0)}
-    for side in SIDES:
-        out = 1.0 if side == "left" else -1.0
-        turns[f"{side}_collar"] = (0.0, 0.0, out * values["shoulders"])
-        # What trunk and shoulders do above them is taken back, as arms hang by their weight.
-        forward = values["arms_forward"] + trunk + lean
-        turns[f"{side}_shoulder"] = (-forward, 0.0, out * (values["arms"] - values["shoulders"]))
-        turns[f"{side}_elbow"] = (-values["elbows"], 0.0, 0.0)
-        turns[f"{side}_hip"] = (0.0, 0.0, out * values["legs"])
-        turns[f"{side}_ankle"] = (-lean, 0.0, -out * values["legs"])  # soles stay level
-    return Pose(turns)
 
 
 def _chain(body: Body, limb: str) -> list[int]:

@@ -78,6 +78,8 @@ def parse_recipe(text: str, *, kind: Kind = "toml", where: str = "recipe") -> Re
     version = table.get("version")
     if version is None and "turns" in table:
         raise RecipeError(f"{where}: is a pose file, not a recipe; give it with --posture-pose")
+    if version is None and "keys" in table:
+        raise RecipeError(f"{where}: is a file of keys, not a recipe; give it with --displacement-keys")
     if version is None:
         raise RecipeError(f"{where}: has no version; add the line: version = {VERSION}")
     if version != VERSION or isinstance(version, bool):

@@ -107,6 +107,28 @@ def named_pose(text: str) -> tuple[Mapping[str, float], Pose]:
     return {}, Pose.parse(text)
 
 
+def posture_pose(values: Mapping[str, float]) -> Pose:
+    """Return the turns of each segment, both sides alike, for values in degrees of the edit ``posture``.
+
+    Those are ``head``, ``trunk``, ``lean``, ``shoulders``, ``arms``, ``arms_forward``, ``elbows`` and
+    ``legs``; any that is left out is 0.
+    """
+    head, trunk, lean, shoulders = (values.get(name, 0.0) for name in ("head", "trunk", "lean", "shoulders"))
+    turns = {"hips": (lean, 0.0, 0.0), "trunk": (trunk, 0.0, 0.0)}
+    turns |= {"neck": (0.5 * head, 0.0, 0.0), "head": (0.5 * head, 0.0, 0.0)}
+    arms, legs = values.get("arms", 0.0), values.get("legs", 0.0)
+    for side in SIDES:
+        out = 1.0 if side == "left" else -1.0
+        turns[f"{side}_collar"] = (0.0, 0.0, out * shoulders)
+        # What trunk and shoulders do above them is taken back, as arms hang by their weight.
+        forward = values.get("arms_forward", 0.0) + trunk + lean
+        turns[f"{side}_shoulder"] = (-forward, 0.0, out * (arms - shoulders))
+        turns[f"{side}_elbow"] = (-values.get("elbows", 0.0), 0.0, 0.0)
+        turns[f"{side}_hip"] = (0.0, 0.0, out * legs)
+        turns[f"{side}_ankle"] = (-lean, 0.0, -out * legs)  # soles stay level
+    return Pose({segment: turn for segment, turn in turns.items() if any(turn)})
+
+
 def read_pose(path: str | Path) -> Pose:
     """Read a pose file (TOML: a table ``turns`` of segment = [left, up, forward] in degrees)."""
     import tomllib

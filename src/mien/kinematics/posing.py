@@ -19,6 +19,7 @@ import numpy as np
 
 from ..motion import Motion
 from ..rotations import directions, quaternion
+from ..signal.waveshaping import soft_limit
 from ..typing import Array
 from .body import ARM, LEG, Body
 from .heading import hips_frame
@@ -41,11 +42,22 @@ def add_pose(
     limbs that it does not name get all of it. The hips are turned in the frame that turns with the
     heading. ``method`` as in the module's docstring.
     """
+    turns = {segment: np.array(degrees) for segment, degrees in pose.turns.items()}
+    return add_turns(motion, body, turns, weights=weights, method=method)
+
+
+def add_turns(
+    motion: Motion, body: Body, turns: Mapping[str, Array], *, weights: Mapping[str, Array], method: Method
+) -> Array:
+    """Return the local rotations (T, J, 4) with the turns of some segments added, as ``add_pose`` does.
+
+    ``turns`` segment -> degrees about the body's left, up and forward axes, (3,) or one turn a frame (T, 3).
+    """
     stance, positions = neutral_world(motion, body)
     bones, joints = _bones(body, positions), segment_joints(body)
     rotations = np.array(motion.rotations)
     everywhere = np.ones(1)
-    for segment, turn in _turns(pose, body).items():
+    for segment, turn in _shared(turns, body).items():
         for joint in joints[segment]:
             above = _above(motion, body, stance, segment, joint, method)
             seen = quaternion.multiply(above, rotations[:, joint])
@@ -84,7 +96,7 @@ def _changed(
     bones: Mapping[str, Array],
     body: Body,
 ) -> Array:
-    """Return the rotations ``seen`` (T, 4) of one joint with ``turn`` (3,) added by ``method``."""
+    """Return the rotations ``seen`` (T, 4) of one joint with ``turn`` (3,) or (T, 3) added."""
     if method == "additive":
         return _add_directions(seen, turn, weight, bones[segment], body)
     if segment == "hips":
@@ -99,13 +111,13 @@ def _changed(
     return quaternion.multiply(seen, quaternion.exp(weight[:, None] * turn))
 
 
-def _turns(pose: Pose, body: Body) -> dict[str, Array]:
-    """Return segment -> the turn of each of its joints, a rotation vector (3,) in world axes at neutral."""
+def _shared(given: Mapping[str, Array], body: Body) -> dict[str, Array]:
+    """Return segment -> the turn of each of its joints, rotation vectors in world axes at neutral."""
     joints, axes = segment_joints(body), anatomical_axes(body)
     turns: dict[str, Array] = {}
-    for segment, degrees in pose.turns.items():
+    for segment, degrees in given.items():
         owner = segment if segment in joints else HEIRS.get(segment, "")
-        if owner in joints and any(degrees):
+        if owner in joints and degrees.any():
             turn = np.radians(degrees) @ axes / len(joints[owner])
             turns[owner] = turns[owner] + turn if owner in turns else turn
     return turns
@@ -159,10 +171,11 @@ def _bend(seen: Array, turn: Array, weight: Array, bone: Array, above: Array, hi
     usual = _unit(clear.mean(axis=0) + CLEAR_BEND * hinge)
     axis = _unit(clear + CLEAR_BEND * usual)
     angle = np.arctan2(np.einsum("ti,ti->t", normal, axis), bent @ above)
-    wanted = weight * float(turn @ hinge)
+    about_hinge = turn @ hinge
+    wanted = weight * about_hinge
     room = np.where(wanted < 0, angle, MOST_BEND - angle)
     bend = np.sign(wanted) * soft_stop(np.abs(wanted), np.maximum(room, 0.0))
-    rest = quaternion.exp(weight[:, None] * (turn - (turn @ hinge) * hinge))
+    rest = quaternion.exp(weight[:, None] * (turn - about_hinge[..., None] * hinge))
     return quaternion.multiply(quaternion.multiply(quaternion.exp(axis * bend[:, None]), seen), rest)
 
 
@@ -172,9 +185,7 @@ def soft_stop(wanted: Array, room: Array) -> Array:
     ``x`` for ``x <= s``, else ``2s - s exp(-(x - s) / s)`` with ``s = room / 2`` (after Bruderlin and
     Williams 1995): no kink, never beyond.
     """
-    half = 0.5 * room
-    over = np.maximum(wanted - half, 0.0)
-    return np.minimum(wanted, half) - half * np.expm1(-over / np.maximum(half, 1e-300))
+    return soft_limit(wanted, room, 0.5 * room)
 
 
 def _unit(v: Array) -> Array:
