@@ -11,7 +11,7 @@ segments of about a second keep their length, and borders are shared, so that li
 from typing import Annotated
 
 from ..kinematics.body import Body
-from ..kinematics.limb_timing import USUAL, Limb, Relative, limb_maps, show
+from ..kinematics.limb_timing import USUAL, Limb, Relative, limb_maps, loop, show
 from ..kinematics.loops import Boundary
 from ..motion import Motion
 from ..signal.time_map import Mode, Rule
@@ -63,5 +63,6 @@ def timing(
         return motion
     body = Body.of(motion)
     rule = Rule(acceleration, mode, rests, segment, steepest)
-    maps = limb_maps(motion, body, rule, limbs=limbs, relative=relative, boundary=boundary)
+    around = loop(motion, body, boundary=boundary)
+    maps = limb_maps(motion, body, rule, limbs=limbs, relative=relative, round_length=around)
     return show(motion, body, maps)

@@ -51,14 +51,13 @@ def limb_maps(
     *,
     limbs: Sequence[str] = USUAL,
     relative: Relative = "position",
-    boundary: Boundary = "auto",
+    round_length: int = 0,
 ) -> LimbMaps:
     """Return the maps of time of those ``limbs`` that move, by a rule on the speed of their ends.
 
     Limbs that the skeleton lacks, and those that hardly move, are left out. Segments keep their length,
-    and all limbs share their borders, so that they stay together.
+    and all limbs share their borders, so that they stay together. ``round_length`` as from ``loop``.
     """
-    round_length = loop(motion, body, boundary=boundary)
     paths = tip_paths(motion, body, limbs=limbs, relative=relative)
     return LimbMaps(_shown_frames(paths, motion, round_length, rule, REST * body.leg_length), round_length)
 
