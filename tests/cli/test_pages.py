@@ -43,7 +43,7 @@ def done(line: str, run: Run) -> None:
             Path(file).write_text(result.stdout, encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", ["README.md", "docs/quickstart.md", "docs/presets.md"])
+@pytest.mark.parametrize("name", ["README.md", "docs/quickstart.md", "docs/presets.md", "docs/grid.md"])
 def test_commands_work_line_by_line_and_python_twice(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:
@@ -51,8 +51,9 @@ def test_commands_work_line_by_line_and_python_twice(
     page = ROOT / name
     if name == "README.md":
         run("demo")  # the last words of the line that installs mien
-    if name == "docs/presets.md":
+    if name in ("docs/presets.md", "docs/grid.md"):
         mien.save(samples.walk(seconds=1.0, fps=30.0).motion, "walk.bvh")
+    if name == "docs/presets.md":
         Path("worn.toml").write_text(blocks(page, "toml")[0])
     for block in blocks(page, "console"):
         for line in block.splitlines():
