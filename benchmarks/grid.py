@@ -11,6 +11,7 @@ the right arm leaves its path in either mode (degrees, the largest of a clip).
 
 import argparse
 import os
+import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
@@ -102,6 +103,8 @@ def feet(folder):
     files = [f for f in sorted(folder.rglob("*.bvh")) if not {"malformed", "stylized_outputs"} & {*f.parts}]
     with ProcessPoolExecutor() as pool:
         rows = [row for row in pool.map(measure, files) if row]
+    if not rows:
+        sys.exit(f"no clips in {folder}")
     table = np.array([row[1:] for row in rows])
     print(f"{len(rows)} clips, {len(POINTS)} points between the nine in each")
     for number, what in enumerate(("slide, cm", "sink, cm", "off path timemap", "off path bilinear")):

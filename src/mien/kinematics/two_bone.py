@@ -36,8 +36,8 @@ def nudge(root: Array, middle: Array, tip: Array, target: Array) -> tuple[Array,
 
     All are world positions (T, 3). The joint stays in its own plane and on its own side, also where it is
     bent the wrong way, and a target where the tip is already changes nothing: so there is no jump where a
-    correction sets in. A joint within six degrees of straight is bent only in part, as its plane is not
-    known; what remains lies along the limb.
+    correction sets in. A joint within 17 degrees of straight is bent only in part (within 3 not at all), as
+    it would have to bend far for little, in a plane that is not known; what remains lies along the limb.
     """
     up, down = root - middle, tip - middle
     upper, lower = _length(up), _length(down)
@@ -47,7 +47,7 @@ def nudge(root: Array, middle: Array, tip: Array, target: Array) -> tuple[Array,
     sides = np.maximum(2 * upper * lower, 1e-300)
     reach = _length(target - root)
     wanted = np.arccos(np.clip((upper**2 + lower**2 - reach**2) / sides, -1, 1))
-    turn = (wanted - angle) * _ramp(2 * size / sides, 0.02, 0.1)
+    turn = (wanted - angle) * _ramp(2 * size / sides, 0.05, 0.3)
     bend = quaternion.exp((turn / np.maximum(size, 1e-300))[:, None] * normal)
     here = middle + quaternion.rotate(bend, down)
     aim = quaternion.between(here - root, target - root)
