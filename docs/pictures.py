@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import mien
 from mien import Motion, Step, render, samples
+from mien.styles.grid import NINE
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -78,6 +79,34 @@ def tremor() -> "Image":
     still = samples.still().motion
     rows = {f"amount {a:g}": mien.apply(still, [Step("tremor", {"amount": a}), step]) for a in (3.0, 8.0)}
     return render.compare(rows, against=mien.apply(still, [step]), poses=6, views=["front"])
+
+
+def grid() -> "Image":
+    """Show two strokes of a wave at the corners of the square and in its centre."""
+    strokes = Step("trim", {"start": 1.2, "end": 2.4})
+    wave = samples.wave().motion
+    rows = {
+        f"path {p}, timing {q}": mien.apply(wave, [Step("grid", {"path": p, "timing": q}), strokes])
+        for p, q in ((0, 2), (2, 2), (1, 1), (0, 0), (2, 0))
+    }
+    return render.compare(rows, poses=12, views=["front"])
+
+
+def square() -> "Image":
+    """Show one walk at the nine points of the square, as they stand in the thesis's figure."""
+    calm = walk()
+    made = mien.grid(calm)
+    columns = [
+        {
+            f"{c.letter} ({c.path}, {c.timing}): {c.title}": made.at(c.path, c.timing)
+            for c in NINE
+            if c.path == p
+        }
+        for p in range(3)
+    ]
+    return beside(
+        *(render.compare(rows, against=calm, poses=4, width=760, views=["side"]) for rows in columns)
+    )
 
 
 def foot_plant() -> "Image":
@@ -153,10 +182,11 @@ def below(*images: "Image") -> "Image":
 
 
 PICTURES: Mapping[str, Callable[[], "Image"]] = {
-    **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, foot_plant)},
     **{f"methods/{f.__name__}": f for f in (waveshape, displacement, tremor)},
+    **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, grid, foot_plant)},
     **{f"methods/{f.__name__}": f for f in (trim, resample, mirror, in_place)},
     "presets": presets,
+    "grid": square,
 }
 
 

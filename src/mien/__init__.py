@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from .motion import Skeleton as Skeleton
     from .recipe import Recipe as Recipe
     from .recipe import Step as Step
+    from .styles.grid import Grid as Grid
+    from .styles.grid import grid as grid
 
     __version__: str
 
@@ -42,6 +44,7 @@ _HOME = {
     "Body": ".kinematics.body",
     "BodyError": ".errors",
     "FormatError": ".errors",
+    "Grid": ".styles.grid",
     "MienError": ".errors",
     "Motion": ".motion",
     "Recipe": ".recipe",
@@ -53,6 +56,7 @@ _HOME = {
     "check": ".analysis.checks.report",
     "compare": ".analysis.compare",
     "edit": ".emotion.resolve",
+    "grid": ".styles.grid",
     "load": ".formats",
     "preset": ".emotion.presets",
     "read_recipe": ".emotion.files",

@@ -21,7 +21,7 @@ LAYERS = (
     ("motion",),
     ("kinematics",),
     ("formats", "edits", "analysis"),
-    ("emotion",),
+    ("emotion", "styles"),
     ("render", "samples"),
     ("batch",),
     ("cli",),

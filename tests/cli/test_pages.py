@@ -53,7 +53,9 @@ def done(line: str, run: Run) -> None:
             Path(file).write_text(result.stdout, encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", ["README.md", "docs/quickstart.md", "docs/presets.md", "docs/checks.md"])
+@pytest.mark.parametrize(
+    "name", ["README.md", "docs/quickstart.md", "docs/presets.md", "docs/checks.md", "docs/grid.md"]
+)
 def test_commands_work_line_by_line_and_python_twice(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:
@@ -61,7 +63,7 @@ def test_commands_work_line_by_line_and_python_twice(
     page = ROOT / name
     if name == "README.md":
         run("demo")  # the last words of the line that installs mien
-    if name == "docs/presets.md":
+    if name in ("docs/presets.md", "docs/grid.md"):
         mien.save(samples.walk(seconds=1.0, fps=30.0).motion, "walk.bvh")
     for file, text in recipes(page):
         Path(file).parent.mkdir(exist_ok=True)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mien.kinematics.two_bone import two_bone
+from mien.kinematics.two_bone import nudge, two_bone
 from mien.rotations import quaternion
 
 
@@ -87,3 +87,47 @@ def test_a_bone_without_length_gives_no_nonsense():
     new_knee, new_ankle = solve(hip, knee, ankle, hip + [0.1, -0.3, 0.0])
     np.testing.assert_allclose(np.linalg.norm(new_knee - hip, axis=1), 0.45, atol=1e-12)
     np.testing.assert_allclose(new_ankle, new_knee, atol=1e-12)
+
+
+def nudged(hip, knee, ankle, target):
+    upper, lower = nudge(hip, knee, ankle, target)
+    new_knee = hip + quaternion.rotate(upper, knee - hip)
+    return upper, lower, new_knee, new_knee + quaternion.rotate(lower, ankle - knee)
+
+
+class TestNudge:
+    """Small corrections: no jump where they set in, whatever side the joint is on."""
+
+    @pytest.mark.parametrize("side", [1.0, -1.0])  # -1: the knee is bent the wrong way
+    def test_no_way_to_go_changes_nothing(self, side):
+        hip, knee, ankle = leg(side * np.linspace(0.0, 2.5, 60))
+        upper, lower, _, _ = nudged(hip, knee, ankle, ankle)
+        for turn in (upper, lower):
+            np.testing.assert_allclose(np.abs(turn[:, 3]), 1.0, atol=1e-12)
+
+    @pytest.mark.parametrize("side", [1.0, -1.0])
+    def test_a_bent_joint_gets_there_on_its_own_side(self, side):
+        rng = np.random.default_rng(3)
+        hip, knee, ankle = leg(side * rng.uniform(0.4, 2.2, 200))
+        target = ankle + rng.normal(size=(200, 3)) * 0.01
+        _, _, new_knee, new_ankle = nudged(hip, knee, ankle, target)
+        np.testing.assert_allclose(new_ankle, target, atol=1e-9)
+        before = np.cross(hip - knee, ankle - knee)[:, 0]
+        after = np.cross(hip - new_knee, new_ankle - new_knee)[:, 0]
+        assert (before * after > 0).all()
+        np.testing.assert_allclose(np.linalg.norm(new_ankle - new_knee, axis=1), 0.42, atol=1e-12)
+
+    def test_a_straight_joint_turns_as_a_whole(self):
+        hip, knee, ankle = leg([0.0, 0.01])
+        target = ankle + [0.02, 0.0, 0.03]
+        upper, lower, _, new_ankle = nudged(hip, knee, ankle, target)
+        np.testing.assert_allclose(upper, lower, atol=1e-12)
+        astray = np.cross(new_ankle - hip, target - hip)  # what is left lies along the leg
+        np.testing.assert_allclose(astray, 0.0, atol=1e-12)
+
+    def test_there_is_no_jump_near_straight(self):
+        flexion = np.linspace(-0.3, 0.3, 2001)
+        hip, knee, ankle = leg(flexion)
+        _, lower, _, _ = nudged(hip, knee, ankle, ankle + [0.0, 0.002, 0.004])
+        turned = 2.0 * np.arccos(np.clip(np.abs((lower[1:] * lower[:-1]).sum(axis=1)), 0.0, 1.0))
+        assert turned.max() < 0.01  # a step of flexion is 0.0003

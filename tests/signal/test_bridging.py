@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from mien.signal.bridging import curve_gaps, envelope, hold_gaps, smooth
+from mien.signal.bridging import curve_gaps, envelope, hold_gaps, nearness, smooth
 
 values = arrays(float, st.integers(3, 60), elements=st.floats(-10, 10))
 
@@ -55,3 +55,20 @@ def test_smooth_keeps_ends_and_lines(x, sigma):
 def test_smooth_lowers_roughness():
     x = np.random.default_rng(0).normal(size=200)
     assert np.abs(np.diff(smooth(x, sigma=3.0), 2)).max() < 0.2 * np.abs(np.diff(x, 2)).max()
+
+
+def test_nearness_is_1_where_known_and_falls_evenly_on_both_sides():
+    known = np.zeros(41, bool)
+    known[18:23] = True
+    out = nearness(known, reach=10.0)
+    assert (out[18:23] == 1.0).all()
+    np.testing.assert_allclose(out, out[::-1])
+    assert (out[[8, 7, 0]] == 0.0).all()
+    assert out[13] == 0.5
+    assert np.abs(np.diff(out, n=2)).max() < 0.07  # no corner: a straight ramp would have 0.1
+
+
+def test_nearness_of_nothing_and_of_everything():
+    assert (nearness(np.zeros(5, bool), reach=3.0) == 0.0).all()
+    assert (nearness(np.ones(5, bool), reach=3.0) == 1.0).all()
+    assert nearness(np.array([True, False]), reach=0.0).tolist() == [1.0, 0.0]

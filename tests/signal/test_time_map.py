@@ -156,6 +156,44 @@ class TestBalance:
         np.testing.assert_allclose(time_map.balance(raw, np.array([0, 60]), steepest=9.0), raw * 0.75)
 
 
+class TestRule:
+    def test_segments_are_longer_for_even_movement_unless_said(self):
+        assert [time_map.Rule(a).longest for a in (0.5, -0.5)] == [0.9, 1.5]
+        assert time_map.Rule(0.5, segment=4.0).longest == 4.0
+
+    def test_above_0_pauses_last_longer_and_below_0_what_is_slow_lasts_shorter(self):
+        speed, whole = bell(150), np.array([0, 300])
+        rushed, even = (
+            time_map.durations(speed, 0.05, whole, time_map.Rule(a, steepest=20.0)) for a in (0.5, -0.5)
+        )
+        assert rushed[150] / rushed[50] == pytest.approx(1.0 + 9.0 * 0.5)
+        # At full speed a step lasts 1 + |a| (s / mean s - 1) as long, in a pause as long as it did.
+        moving = speed >= 0.05
+        assert even[50] / even[150] == pytest.approx(1.0 + 0.5 * (1.0 / speed[moving].mean() - 1.0), rel=1e-6)
+        for lasting in (rushed, even):
+            assert lasting.mean() == pytest.approx(1.0)
+
+    def test_rests_count_when_asked(self):
+        speed, whole = np.ones(300), np.array([0, 300])
+        speed[100:160] = 0.01
+        plain, rests = (
+            time_map.durations(speed, 0.1, whole, time_map.Rule(0.5, rests=r)) for r in (False, True)
+        )
+        np.testing.assert_allclose(plain, 1.0)
+        assert rests[130] > 1.5 * rests[50]
+
+
+class TestBetween:
+    def test_moments_lie_between_two_frames(self):
+        here, after, weight = time_map.between(np.array([0.0, 1.25, 3.0]), 4)
+        assert (here.tolist(), after.tolist(), weight.tolist()) == ([0, 1, 3], [1, 2, 3], [0.0, 0.25, 0.0])
+
+    def test_beyond_the_ends(self):
+        at = np.array([-0.5, 4.5])
+        assert [a.tolist() for a in time_map.between(at, 4)[:2]] == [[0, 3], [0, 3]]
+        assert [a.tolist() for a in time_map.between(at, 4, wrap=True)[:2]] == [[3, 0], [0, 1]]
+
+
 class TestSourceTimes:
     @given(arrays(np.float64, 80, elements=st.floats(0.1, 10.0)), st.floats(0.005, 0.02))
     @settings(max_examples=40, deadline=None)

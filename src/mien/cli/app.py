@@ -12,6 +12,8 @@ from . import commands
 from .help import Command
 from .report import complain
 
+# Commands that take flags of edits: which edits; none named means all.
+FLAGS_OF = {"edit": (), "grid": ("posture",)}
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 120}
 
 
@@ -19,10 +21,10 @@ class Commands(TyperGroup):
     """The group of commands: turns every failure into one sentence and an exit code."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        """Find the command; ``edit`` gets its flags only now, as they need every edit imported."""
+        """Find the command; some get their flags only now, as they need every edit imported."""
         name, command, rest = super().resolve_command(ctx, args)
-        if name == "edit":
-            command = typer.main.get_command(_with_edit_flags())
+        if name in FLAGS_OF:
+            command = typer.main.get_command(_with_flags(name))
             command.name = name
         return name, command, rest
 
@@ -56,12 +58,12 @@ class Commands(TyperGroup):
             raise typer.Exit(1) from None
 
 
-def _with_edit_flags() -> typer.Typer:
-    from .edit import edit
+def _with_flags(name: str) -> typer.Typer:
     from .flags import with_flags
 
+    written = next(command for command in commands.COMMANDS if command.__name__ == name)
     alone = typer.Typer(add_completion=False, context_settings=HELP, rich_markup_mode=None)
-    alone.command(cls=Command)(with_flags(edit))
+    alone.command(cls=Command)(with_flags(written, edits=FLAGS_OF[name]))
     return alone
 
 

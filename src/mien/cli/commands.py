@@ -7,11 +7,23 @@ from .demo import demo
 from .diff import diff
 from .doctor import doctor
 from .edit import edit
+from .grid import grid
 from .info import info
 from .pose import pose
 from .presets import presets
 from .render import render
 from .signature import with_parameters
 
-COMMANDS: tuple[Callable[..., None], ...] = (demo, info, edit, presets, diff, check, render, pose, doctor)
+COMMANDS: tuple[Callable[..., None], ...] = (
+    demo,
+    info,
+    edit,
+    grid,
+    presets,
+    diff,
+    check,
+    render,
+    pose,
+    doctor,
+)
 ALL = tuple(with_parameters(command) for command in COMMANDS)

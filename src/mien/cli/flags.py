@@ -1,7 +1,7 @@
 """One flag for every parameter of every edit, made from the signatures, and the steps they mean."""
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Annotated, Any
 
@@ -16,7 +16,7 @@ _JOIN = "__"  # between edit and parameter in the name that a flag has inside
 
 # The order in which edits given by flags are done; an edit that is not named follows its kind.
 ORDER = (
-    *("trim", "resample", "mirror", "path_length", "waveshape", "timing"),
+    *("trim", "resample", "mirror", "grid", "path_length", "waveshape", "timing"),
     *("posture", "displacement", "tremor", "foot_plant", "in_place"),
 )
 _LAST_OF_KIND = {"time": "mirror", "rhythm": "mirror", "pose": "posture", "repair": "foot_plant"}
@@ -27,12 +27,16 @@ def flag_name(edit: str, parameter: str = "") -> str:
     return "--" + f"{edit}_{parameter}".strip("_").replace("_", "-")
 
 
-def with_flags(function: Callable[..., None]) -> Callable[..., None]:
-    """Return ``function`` with a flag for every edit and parameter; it gets them as ``flags``.
+def with_flags(function: Callable[..., None], *, edits: Sequence[str] = ()) -> Callable[..., None]:
+    """Return ``function`` with a flag for every edit and parameter, or those of ``edits``; as ``flags``.
 
     ``flags`` is a mapping edit -> parameter -> value that holds what was given, and nothing else.
     """
-    return with_parameters(function, [p for edit in _ordered() for p in _options(edit)], _given)
+    return with_parameters(
+        function,
+        [p for edit in _ordered() if not edits or edit.name in edits for p in _options(edit)],
+        _given,
+    )
 
 
 def compose(

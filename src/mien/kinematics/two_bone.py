@@ -31,6 +31,29 @@ def two_bone(root: Array, middle: Array, tip: Array, target: Array, hinge: Array
     return aim, quaternion.multiply(aim, bend)
 
 
+def nudge(root: Array, middle: Array, tip: Array, target: Array) -> tuple[Array, Array]:
+    """Return the world rotations (T, 4) to apply to both bones so that the tip moves a little to ``target``.
+
+    All are world positions (T, 3). The joint stays in its own plane and on its own side, also where it is
+    bent the wrong way, and a target where the tip is already changes nothing: so there is no jump where a
+    correction sets in. A joint within 17 degrees of straight is bent only in part (within 3 not at all), as
+    it would have to bend far for little, in a plane that is not known; what remains lies along the limb.
+    """
+    up, down = root - middle, tip - middle
+    upper, lower = _length(up), _length(down)
+    normal = np.cross(up, down)
+    size = _length(normal)
+    angle = np.arctan2(size, np.einsum("ti,ti->t", up, down))
+    sides = np.maximum(2 * upper * lower, 1e-300)
+    reach = _length(target - root)
+    wanted = np.arccos(np.clip((upper**2 + lower**2 - reach**2) / sides, -1, 1))
+    turn = (wanted - angle) * _ramp(2 * size / sides, 0.05, 0.3)
+    bend = quaternion.exp((turn / np.maximum(size, 1e-300))[:, None] * normal)
+    here = middle + quaternion.rotate(bend, down)
+    aim = quaternion.between(here - root, target - root)
+    return aim, quaternion.multiply(aim, bend)
+
+
 def _bend(to_root: Array, to_tip: Array, hinge: Array, *, trusting: bool) -> tuple[Array, Array]:
     """Return the inner angle (T,) of the joint, beyond pi when over-stretched, and its axis (T, 3).
 

@@ -57,6 +57,16 @@ def _fade(out: Array, frames: Integers, edge: Integers, length: Integers, slope:
     out[frames] += (2 * cube - 3 * square + 1) * out[edge] + bend
 
 
+def nearness(known: Mask, *, reach: float) -> Array:
+    """Return 1 (T,) where ``known``, falling to 0 over ``reach`` frames to both sides without a corner."""
+    from scipy.ndimage import distance_transform_edt
+
+    if known.all() or not known.any():
+        return known.astype(float)
+    share = np.clip(distance_transform_edt(~known) / max(reach, 1e-9), 0.0, 1.0)
+    return np.asarray(1.0 - share * share * (3.0 - 2.0 * share))
+
+
 def envelope(values: Array, *, reach: int) -> Array:
     """Return a smooth curve (T,) that is nowhere below ``values``: the running maximum, then averaged."""
     from scipy.ndimage import convolve1d, maximum_filter1d

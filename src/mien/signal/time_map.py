@@ -5,6 +5,7 @@ segments that keep their own length. All curves here have one value for each 10 
 of steps fills the clip) and lie on axis 0; with ``wrap`` they are one round of a loop.
 """
 
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
 
@@ -23,6 +24,32 @@ FACTOR = 10.0
 LEVEL = 2
 # Steps over which the correction from segment to segment is smoothed.
 BLUR = 5
+# Steps of 10 ms over which durations are smoothed; more would slow the ends of even movements.
+BLUR_ACCELERATED, BLUR_EVEN = 5, 3
+SEGMENT_ACCELERATED, SEGMENT_EVEN = 0.9, 1.5
+
+Mode = Literal["peaks", "grid"]
+
+
+@dataclass(frozen=True)
+class Rule:
+    """How durations come from speeds.
+
+    ``acceleration`` from -1 (constant speed) to 1 (added acceleration); ``mode`` as in ``short_pauses``;
+    with ``rests`` whatever is still counts as a pause; ``segment`` seconds at most keep their length
+    (None: 0.9 accelerated, 1.5 even); nothing runs more than ``steepest`` times as fast as it did.
+    """
+
+    acceleration: float
+    mode: Mode = "peaks"
+    rests: bool = False
+    segment: float | None = None
+    steepest: float = 2.5
+
+    @property
+    def longest(self) -> float:
+        """The longest segment in seconds."""
+        return self.segment or (SEGMENT_ACCELERATED if self.acceleration > 0.0 else SEGMENT_EVEN)
 
 
 def speed_curve(points: Array, frame_time: float, *, wrap: bool = False) -> tuple[Array, float]:
@@ -40,6 +67,24 @@ def speed_curve(points: Array, frame_time: float, *, wrap: bool = False) -> tupl
     return smooth(np.diff(np.interp(grid, times, length)) / step, LEVEL, wrap=wrap), step
 
 
+def durations(speed: Array, still: float, borders: Integers, rule: Rule, *, wrap: bool = False) -> Array:
+    """Return how long each step lasts (N,), 1 on average in every segment, by a rule.
+
+    ``speed (N,)`` below ``still`` is rest. Above 0, ``1 + 9 a`` in pauses; below 0, ``1 + |a| (s / mean s
+    - 1)`` where something moves.
+    """
+    a = rule.acceleration
+    if a > 0.0:
+        pauses = short_pauses(speed, still, mode=rule.mode, wrap=wrap)
+        pauses = np.maximum(pauses, speed < still) if rule.rests else pauses
+        raw, width = 1.0 + (FACTOR - 1.0) * a * pauses, BLUR_ACCELERATED
+    else:
+        even = constant_speed(speed, speed < still, borders)
+        raw, width = 1.0 - a * (even - 1.0), BLUR_EVEN
+    smooth_ones = blur(raw, width=width, wrap=wrap)
+    return balance(smooth_ones, borders, steepest=rule.steepest, wrap=wrap)
+
+
 def constant_speed(speed: Array, pause: Mask, borders: Integers) -> Array:
     """Return durations (N,) in proportion to speed, so that what moves moves evenly (equations 4 to 6).
 
@@ -54,9 +99,7 @@ def constant_speed(speed: Array, pause: Mask, borders: Integers) -> Array:
     return out
 
 
-def short_pauses(
-    speed: Array, still: float, *, mode: Literal["peaks", "grid"] = "peaks", wrap: bool = False
-) -> Array:
+def short_pauses(speed: Array, still: float, *, mode: Mode = "peaks", wrap: bool = False) -> Array:
     """Return 1 where a short pause lies and 0 elsewhere (N,) (equation 7).
 
     A pause is a set of 15 steps whose mean speed is below 0.8 times that of the sets before and after,
@@ -108,6 +151,18 @@ def source_times(durations: Array, step: float, at: Array) -> Array:
     """Return the source moments shown at the moments ``at``, both in seconds: the inverse of the sum."""
     shown = np.concatenate([[0.0], np.cumsum(durations)]) * step
     return np.interp(at, shown * (len(durations) * step / shown[-1]), np.arange(len(shown)) * step)
+
+
+def between(at: Array, frames: int, *, wrap: bool = False) -> tuple[Integers, Integers, Array]:
+    """Return the frames before and after the moments ``at`` (in frames), and how far they are in between.
+
+    Moments beyond the ends of the ``frames`` are the first and last one, or with ``wrap`` start over.
+    """
+    here = np.floor(at).astype(np.int64)
+    weight = at - here
+    if wrap:
+        return here % frames, (here + 1) % frames, weight
+    return np.clip(here, 0, frames - 1), np.clip(here + 1, 0, frames - 1), weight
 
 
 def _segment_means(values: Array, borders: Integers) -> Array:
