@@ -1,0 +1,1 @@
+"""Styles from examples: several clips of one skeleton make a new one."""
