@@ -22,6 +22,7 @@ from .shares import Shares
 
 # A clip with less weight than this does not say when the feet of the blend stand.
 LIGHT = 0.02
+AXES = np.eye(3)[0], np.eye(3)[1]  # the axes of a foot that its direction vectors show
 BRIDGE, LIFT = 0.25, 0.05  # seconds in which a correction along, and one off, the ground sets in and ends
 
 
@@ -29,13 +30,14 @@ BRIDGE, LIFT = 0.25, 0.05  # seconds in which a correction along, and one off, t
 class Feet:
     """``ankles`` (T, 2, 3) and their rotations ``turns`` (T, 2, 4) seen in the heading, from below the hips.
 
-    ``over`` (T, 2, 3) are the ankles in the world; ``stands`` (T, 2) says whether each foot stands on the
-    floor; ``lowest`` (2,) is how low each foot comes.
+    ``over`` (T, 2, 3) and ``turned`` (T, 2, 4) are the same in the world; ``stands`` (T, 2) says whether
+    each foot stands on the floor; ``lowest`` (2,) is how low each foot comes.
     """
 
     ankles: Array
     turns: Array
     over: Array
+    turned: Array
     stands: Mask
     lowest: Array
 
@@ -50,6 +52,7 @@ def feet_of(motion: Motion, spots: tuple[Array, Array], route: Route, body: Body
         ankles=quaternion.rotate(back, positions[:, joints] - route.ground[:, None]),
         turns=quaternion.multiply(back, rotations[:, joints]),
         over=positions[:, joints],
+        turned=rotations[:, joints],
         stands=detect_points(points, body, motion.frame_time).feet,
         lowest=_lowest(motion, rotations, positions, body).min(axis=0),
     )
@@ -61,53 +64,71 @@ def with_feet(
     """Return the motion ``made`` with its feet where the blended feet are, off their legs if need be."""
     turn = way.turn(body)[:, None]
     ankles = way.ground[:, None] + quaternion.rotate(turn, parts.mixed([f.ankles for f in feet], made.fps))
-    ankles += _standing(feet, routes, way, ankles, parts, body, reach=round(BRIDGE * made.fps))
-    x, y = np.eye(3)[:2]
-    codes = parts.mixed([directions.encode(f.turns, x, y) for f in feet], made.fps)
-    facing = quaternion.multiply(turn, directions.decode(codes, x, y, fallback=feet[parts.heaviest].turns))
-    floor = parts.mid @ np.stack([f.lowest for f in feet])
-    sunk = floor - _lowest(put := _with_ankles(made, ankles, facing, body), *world(put), body)
-    if (sunk <= 0.0).all():
-        return put
-    lift = [envelope(np.maximum(under, 0.0), reach=round(LIFT * made.fps)) for under in sunk.T]
-    return _with_ankles(made, ankles + np.stack(lift, axis=1)[..., None] * body.up, facing, body)
+    codes = parts.mixed([directions.encode(f.turns, *AXES) for f in feet], made.fps)
+    turns = quaternion.multiply(turn, directions.decode(codes, *AXES, fallback=feet[parts.heaviest].turns))
+    stands = np.all([f.stands for f, w in zip(feet, parts.mid, strict=True) if abs(w) >= LIGHT], axis=0)
+    reach = round(BRIDGE * made.fps)
+    for foot in range(2):
+        shift, astray = np.zeros((2, len(made), 3))
+        for start, stop in spans(stands[:, foot]):
+            span = slice(start, stop), foot
+            moved, turned = _standing(feet, routes, way, parts, span, body)
+            shift[start:stop] = moved - _from_mean(ankles[span], body.up)
+            astray[start:stop] = quaternion.log(
+                quaternion.multiply(turned, quaternion.conjugate(turns[span]))
+            )
+        ankles[:, foot] += curve_gaps(shift, stands[:, foot], reach=reach)
+        bridged = quaternion.exp(curve_gaps(astray, stands[:, foot], reach=reach))
+        turns[:, foot] = quaternion.multiply(bridged, turns[:, foot])
+    return _off_the_floor(made, feet, ankles, turns, parts, body)
 
 
 def _standing(
     feet: Sequence[Feet],
     routes: Sequence[Route],
     way: Route,
-    ankles: Array,
     parts: Shares,
+    span: tuple[slice, int],
     body: Body,
-    *,
-    reach: int,
-) -> Array:
-    """Return how far to move the blended ankles (T, 2, 3) along the ground, so that feet that stand do.
+) -> tuple[Array, Array]:
+    """Return how a foot that stands in every clip goes (n, 3) around its mean, and how it is turned (n, 4).
 
-    While the foot of every clip stands, the blended foot moves as the clips' feet do over the ground (as
-    they roll, or slide): by ``R(psi) sum_i w_i R(-psi_i) (a_i - mean a_i)`` from the mean of where it is.
+    It does what the clips' feet do on the ground (they roll, or slide), with the weights of mid:
+    ``R(psi) sum_i w_i R(-psi_i) (a_i - mean a_i)``, psi the mean heading of that time; turned likewise.
     """
-    stands = np.all([f.stands for f, w in zip(feet, parts.mid, strict=True) if abs(w) >= LIGHT], axis=0)
-    shift = np.zeros_like(ankles)
-    for foot in range(2):
-        for start, stop in spans(stands[:, foot]):
-            span = slice(start, stop)
-            own = np.zeros((stop - start, 3))
-            for weight, f, route in zip(parts.mid, feet, routes, strict=True):
-                own += weight * _facing(_from_mean(f.over[span, foot]), -route.heading[span].mean(), body)
-            off = _facing(own, way.heading[span].mean(), body) - _from_mean(ankles[span, foot])
-            shift[span, foot] = off - (off @ body.up)[:, None] * body.up
-        shift[:, foot] = curve_gaps(shift[:, foot], stands[:, foot], reach=reach)
-    return shift
+    frames, foot = span
+    moved, codes = 0.0, 0.0
+    for weight, f, route in zip(parts.mid, feet, routes, strict=True):
+        back = _yaw(-route.heading[frames].mean(), body)
+        moved = moved + weight * quaternion.rotate(back, _from_mean(f.over[span], body.up))
+        turned = quaternion.multiply(back, f.turned[span])
+        codes = codes + weight * directions.encode(turned, *AXES)
+    ahead = _yaw(way.heading[frames].mean(), body)
+    turned = directions.decode(np.asarray(codes), *AXES, fallback=feet[parts.heaviest].turns[span])
+    return quaternion.rotate(ahead, np.asarray(moved)), quaternion.multiply(ahead, turned)
 
 
-def _from_mean(places: Array) -> Array:
-    return places - places.mean(axis=0)
+def _off_the_floor(
+    made: Motion, feet: Sequence[Feet], ankles: Array, turns: Array, parts: Shares, body: Body
+) -> Motion:
+    """Return the motion with its feet as given, lifted where they come lower than the blend of the clips."""
+    put = _with_ankles(made, ankles, turns, body)
+    floor = parts.mid @ np.stack([f.lowest for f in feet])
+    sunk = np.maximum(floor - _lowest(put, *world(put), body), 0.0)
+    if not sunk.any():
+        return put
+    lift = np.stack([envelope(under, reach=round(LIFT * made.fps)) for under in sunk.T], axis=1)
+    return _with_ankles(made, ankles + lift[..., None] * body.up, turns, body)
 
 
-def _facing(vectors: Array, angle: float, body: Body) -> Array:
-    return quaternion.rotate(quaternion.exp(angle * body.up), vectors)
+def _from_mean(places: Array, up: Array) -> Array:
+    """Return places (n, 3) along the ground from their mean, their height as it is."""
+    mean = places.mean(axis=0)
+    return places - mean + (mean @ up) * up
+
+
+def _yaw(angle: float, body: Body) -> Array:
+    return quaternion.exp(angle * body.up)
 
 
 def _with_ankles(made: Motion, ankles: Array, turns: Array, body: Body) -> Motion:
