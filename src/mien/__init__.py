@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from .motion import Skeleton as Skeleton
     from .recipe import Recipe as Recipe
     from .recipe import Step as Step
+    from .styles.multitarget import blend as blend
 
     __version__: str
 
@@ -49,6 +50,7 @@ _HOME = {
     "Step": ".recipe",
     "apply": ".emotion.resolve",
     "before_after": ".analysis.compare",
+    "blend": ".styles.multitarget",
     "compare": ".analysis.compare",
     "edit": ".emotion.resolve",
     "load": ".formats",

@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 # Packages whose __all__ is the public interface, and those whose modules are namespaces of functions.
 INTERFACES = ("mien", "mien.render", "mien.samples")
-NAMESPACES = ("rotations", "signal", "kinematics", "edits", "analysis", "emotion")
+NAMESPACES = ("rotations", "signal", "kinematics", "edits", "analysis", "emotion", "styles")
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ LAYERS = (
     ("motion",),
     ("kinematics",),
     ("formats", "edits", "analysis"),
-    ("emotion",),
+    ("emotion", "styles"),
     ("render", "samples"),
     ("batch",),
     ("cli",),

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from .blend import blend
 from .demo import demo
 from .diff import diff
 from .doctor import doctor
@@ -12,5 +13,5 @@ from .presets import presets
 from .render import render
 from .signature import with_parameters
 
-COMMANDS: tuple[Callable[..., None], ...] = (demo, info, edit, presets, diff, render, pose, doctor)
+COMMANDS: tuple[Callable[..., None], ...] = (demo, info, edit, blend, presets, diff, render, pose, doctor)
 ALL = tuple(with_parameters(command) for command in COMMANDS)

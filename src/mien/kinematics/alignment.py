@@ -25,9 +25,9 @@ from .steps import is_gait, match, steps, with_ends
 
 Method = Literal["auto", "dtw", "steps", "none"]
 METHODS = ("auto", "dtw", "steps", "none")
-RATE, MOST = 30.0, 600  # samples a second, and at most, that poses are compared at
+RATE, MOST = 30.0, 1200  # samples a second, and at most, that poses are compared at
 BAND = 0.3
-SMOOTH, SPACING = 0.025, 0.05  # of the length: how far a time warp is averaged, and between its knots
+SMOOTH, SPACING = 0.15, 0.2  # seconds: how far a time warp is averaged, and between its knots
 STILL = 0.03  # leg lengths: who moves less than this on average is at rest
 PACE = 0.1  # speeds are told as the way that they lead in this share of the clip
 
@@ -47,7 +47,10 @@ class Alignment:
         return f"Alignment({self.knots.shape[1]} motions by {self.method}, {len(self.knots)} knots)"
 
     def frames(self, common: Array, at: Array) -> Array:
-        """Return the frames (M, N) of each motion at the moments ``at`` of a time with knots at ``common``."""
+        """Return the frames (M, N) of each motion at the moments ``at`` of a time with knots at ``common``.
+
+        ``common`` (K,) rises from knot to knot; with the column of a motion it is that motion's own time.
+        """
         return monotone(common, self.knots, at)
 
 
@@ -64,7 +67,9 @@ def align(motions: Sequence[Motion], *, method: Method = "auto", to: int | None 
         raise MienError(unknown("alignment", method, METHODS))
     single = [len(m) == 1 for m in motions]
     if any(single) and not all(single):
-        raise MienError(f"motion {single.index(True) + 1} has a single frame: a still has no time to align")
+        raise MienError(f"clip {single.index(True) + 1} has a single frame: a still has no time to align")
+    if to is not None and not 0 <= to < len(motions):
+        raise MienError(f"to must be the number of one of the {len(motions)} clips, from 0, got {to}")
     # Sorted by what they hold, so that no tie is broken by the order in which they are given.
     order = sorted(range(len(motions)), key=lambda i: (len(motions[i]), motions[i].rotations.tobytes()))
     place = [order.index(i) for i in range(len(motions))]
@@ -100,20 +105,18 @@ def by_steps(motions: Sequence[Motion]) -> Array | None:
 
 def by_movement(motions: Sequence[Motion], *, to: int | None = None) -> Array:
     """Return the knots (K, N) of dynamic time warping, start with start and end with end."""
-    count = min(max(round(max(m.duration for m in motions) * RATE), 8) + 1, MOST)
+    longest = max(motion.duration for motion in motions)
+    count = min(max(round(longest * RATE), 8) + 1, MOST)
     shown = [features(motion, count) for motion in motions]
     to = _most_alike(shown) if to is None else to
-    grid = np.linspace(0.0, count - 1.0, round(1.0 / SPACING) + 1)
+    second = (count - 1) / longest
+    grid = np.linspace(0.0, count - 1.0, max(round(longest / SPACING), 1) + 1)
     columns = []
-    for i, motion in enumerate(motions):
-        pairs = _warp(shown[to], shown[i])
+    for seen, motion in zip(shown, motions, strict=True):
+        path = dtw.path(shown[to], seen, band=BAND)
+        pairs = dtw.knots(path, sigma=SMOOTH * second, spacing=SPACING * second)
         columns.append(monotone(pairs[:, 0], pairs[:, 1], grid) * (len(motion) - 1) / (count - 1))
     return np.stack(columns, axis=1)
-
-
-def _warp(a: Array, b: Array) -> Array:
-    found = dtw.path(a, b, band=BAND)
-    return dtw.knots(found, sigma=SMOOTH * len(a), spacing=SPACING * len(a))
 
 
 def _most_alike(shown: Sequence[Array]) -> int:

@@ -33,8 +33,8 @@ def steps(motion: Motion, *, body: Body | None = None) -> Array:
     back = quaternion.conjugate(heading_rotation(positions, body))
     found = []
     for foot, side in enumerate(SIDES):
-        ahead = positions[:, body.roles[f"{side}_ankle"]] - positions[:, body.roles["hips"]]
-        ahead = quaternion.rotate(back, ahead) @ body.forward / body.leg_length
+        reach = positions[:, body.roles[f"{side}_ankle"]] - positions[:, body.roles["hips"]]
+        ahead: Array = quaternion.rotate(back, reach) @ body.forward / body.leg_length
         ahead = smooth(ahead, sigma=0.03 / motion.frame_time)
         for peak in find_peaks(ahead, prominence=AHEAD)[0]:
             found.append((_vertex(ahead, int(peak)), float(foot)))

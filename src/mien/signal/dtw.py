@@ -11,12 +11,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import MienError, unknown
 from ..typing import Array, Integers
 from .bridging import smooth
 
 Steps = Literal["limited", "free"]
+Choices = NDArray[np.int8]  # which of the steps led to a cell
 # How far a step goes in each sequence. The straight step stands first: of equal sums it is taken.
 STEPS: dict[str, tuple[tuple[int, int], ...]] = {
     "limited": ((1, 1), (1, 2), (2, 1)),
@@ -133,7 +135,7 @@ class _Table:
         self.weights = np.ones_like(self.sums)
         self.ends: list[tuple[float, int, int]] = []
 
-    def advance(self, k: int, i: Integers) -> Integers:
+    def advance(self, k: int, i: Integers) -> Choices:
         """Work off the cells ``(i, k - i)`` of one anti-diagonal; return the step that led to each, or -1."""
         j = k - i
         here = self.a[i[0] : i[-1] + 1] - self.b[j]
@@ -157,12 +159,14 @@ class _Table:
         last_i, last_j = len(self.a) - 1, len(self.b) - 1
         if i[-1] < last_i and j[0] < last_j:
             return
-        there = ((j == last_j) & (i >= last_i - self.free[0])) | ((i == last_i) & (j >= last_j - self.free[1]))
+        there = ((j == last_j) & (i >= last_i - self.free[0])) | (
+            (i == last_i) & (j >= last_j - self.free[1])
+        )
         for e in np.flatnonzero(there & np.isfinite(mean)):
             self.ends.append((float(mean[e]), int(i[e]), int(j[e])))
 
 
-def _trace(choice: Integers, low: Integers, steps: Sequence[tuple[int, int]], i: int, j: int) -> Integers:
+def _trace(choice: Choices, low: Integers, steps: Sequence[tuple[int, int]], i: int, j: int) -> Integers:
     """Return the cells (P, 2) from the start of the path to its end ``(i, j)``."""
     cells = [(i, j)]
     while (step := int(choice[i + j, i - low[i + j]])) >= 0:

@@ -96,7 +96,7 @@ def _standing(
     It does what the clips' feet do on the ground (they roll, or slide), with the weights of mid:
     ``R(psi) sum_i w_i R(-psi_i) (a_i - mean a_i)``, psi the mean heading of that time; turned likewise.
     """
-    frames, foot = span
+    frames = span[0]
     moved, codes = 0.0, 0.0
     for weight, f, route in zip(parts.mid, feet, routes, strict=True):
         back = _yaw(-route.heading[frames].mean(), body)

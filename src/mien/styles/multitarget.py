@@ -6,12 +6,13 @@ heading of each clip, and the planted feet are then put back where the blend of 
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from math import floor
 
 import numpy as np
 
-from ..errors import MienError
 from ..edits.foot_plant import foot_plant
+from ..errors import MienError
 from ..kinematics import alignment
 from ..kinematics.alignment import Alignment, Method
 from ..kinematics.body import Body
@@ -21,7 +22,7 @@ from ..kinematics.heading import heading_free
 from ..motion import Motion, Skeleton
 from ..rotations import directions, quaternion
 from ..signal.sampling import spline
-from ..typing import Array
+from ..typing import Array, Integers
 from .footing import feet_of, with_feet
 from .route import Route, blended, route_of
 from .shares import Shares, shares
@@ -30,6 +31,23 @@ from .skeletons import on_one_skeleton
 # Where weights beyond 0 to 1 would make time stand still or run back, it goes at this share of the
 # fastest clip's pace.
 SLOWEST = 0.25
+
+
+@dataclass(frozen=True, eq=False)
+class Mixture:
+    """A blend and how it was made: the ``shares``, how the clips were aligned, and what of them is in it.
+
+    ``frames`` (N, 2) are the first and the last frame of each clip; what lies outside has no counterpart in
+    the others.
+    """
+
+    motion: Motion
+    shares: Shares
+    method: str
+    frames: Integers
+
+    def __repr__(self) -> str:
+        return f"Mixture({len(self.frames)} clips aligned by {self.method}: {self.motion!r})"
 
 
 def blend(
@@ -44,30 +62,45 @@ def blend(
     ``weights`` hold one number for each clip, -1 to 2 with the sum 1: beyond 0 to 1 differences are
     exaggerated. ``bands`` may give weights of their own to ``low`` (below 1 Hz: posture), ``mid`` (1 to
     12.5 Hz: movement) and ``high``; ``weights`` then say how time runs, and stand for bands that are not
-    named (None: those of mid, else equal). ``align`` as in ``kinematics.alignment.align``.
+    named (None: those of mid, else equal). ``align`` is ``auto``, ``steps``, ``dtw`` or ``none``, as in
+    ``kinematics.alignment.align``.
 
     The result lasts as long as the blend of what the clips have in common, ``sum_i w_i T_i``, at the
-    frame rate, and on the skeleton, of the first. Rotations are blended as direction vectors, the hips'
-    turns and steps over the ground in the heading, with the weights of mid; planted feet do not slide.
-    Weights of 1 and 0 give one clip back as far as it is common to all. A still such as a T-pose at the
-    start is left out, and the history is empty. Raises ``MienError`` where skeletons, weights or
+    frame rate, and on the skeleton, of the first. Rotations are blended as direction vectors; turns, and
+    steps over the ground as seen in the heading, with the weights of mid; planted feet do not slide.
+    Weights of 1 and 0 give one clip back, as far as all have it in common. A still such as a T-pose at
+    the start is left out; the history is empty. Raises ``MienError`` where skeletons, weights or
     alignment do not fit, and ``BodyError`` where no body is found.
 
     >>> half = mien.blend([neutral, sad], [0.5, 0.5])
     >>> slumped = mien.blend([neutral, sad], None, bands={"low": [0, 1], "mid": [1, 0], "high": [1, 0]})
     """
+    return mix(motions, weights, bands=bands, align=align).motion
+
+
+def mix(
+    motions: Sequence[Motion],
+    weights: Sequence[float] | None,
+    *,
+    bands: Mapping[str, Sequence[float]] | None = None,
+    align: Method = "auto",
+) -> Mixture:
+    """Return the ``blend`` of clips and how it was made."""
     clips = on_one_skeleton(motions)
     parts = shares(len(clips), weights, bands)
-    shown = _together(clips, alignment.align(clips, method=align), parts)
     bodies = _bodies(clips)
-    body = bodies[0]
+    found = alignment.align(clips, method=align)
+    shown = _together(clips, found, parts)
     spots = [world(motion) for motion in shown]
-    routes = [route_of(positions, body) for _, positions in spots]
+    routes = [route_of(positions, bodies[0]) for _, positions in spots]
     feet = [feet_of(*each) for each in zip(shown, spots, routes, bodies, strict=True)]
-    way = blended(routes, parts, body, shown[0].fps)
-    made = _posed(shown, way, parts, body)
-    standing = with_feet(made, feet, routes, way, parts, body)
-    return foot_plant(made, original=standing, travel=False).with_(history=(), reference=None)
+    way = blended(routes, parts, bodies[0], shown[0].fps)
+    made = _posed(shown, way, parts, bodies[0])
+    standing = with_feet(made, feet, routes, way, parts, bodies[0])
+    planted = foot_plant(made, original=standing, travel=False)
+    left_out = [len(motion) - len(clip) for motion, clip in zip(motions, clips, strict=True)]
+    frames = np.rint(found.knots[[0, -1]].T).astype(np.int64) + np.array(left_out)[:, None]
+    return Mixture(planted.with_(history=(), reference=None), parts, found.method, frames)
 
 
 def _bodies(clips: Sequence[Motion]) -> list[Body]:
@@ -115,9 +148,7 @@ def _posed(shown: Sequence[Motion], way: Route, parts: Shares, body: Body) -> Mo
     rotations[:, hips] = quaternion.multiply(facing, rotations[:, hips])
     translations[:, hips] = quaternion.rotate(quaternion.conjugate(turned), way.hips(body) - places)
     name = " + ".join(motion.name for motion in shown if motion.name)
-    return first.with_(
-        rotations=quaternion.continuous(rotations), translations=translations, name=name
-    )
+    return first.with_(rotations=quaternion.continuous(rotations), translations=translations, name=name)
 
 
 def _above(skeleton: Skeleton, hips: int, rotations: Array, translations: Array) -> tuple[Array, Array]:
@@ -138,4 +169,3 @@ def _translations(shown: Sequence[Motion], parts: Shares) -> Array:
     moving = np.any([np.ptp(m.translations, axis=0).any(axis=-1) for m in shown], axis=0)
     out[:, moving] = parts.mixed([m.translations[:, moving] for m in shown], first.fps)
     return out
-

@@ -31,6 +31,10 @@ class Shares:
         """The clip that has the largest part in the movement."""
         return int(np.argmax(self.mid))
 
+    def of(self, clip: int) -> tuple[float, ...]:
+        """Return the weights of one clip: for time, and for the bands low, mid and high."""
+        return tuple(float(weights[clip]) for weights in (self.time, self.low, self.mid, self.high))
+
     def mixed(self, values: Sequence[Array], fps: float) -> Array:
         """Return the blend (T, ...) of signals, one for each clip, on common frames.
 
