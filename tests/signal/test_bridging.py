@@ -55,3 +55,12 @@ def test_smooth_keeps_ends_and_lines(x, sigma):
 def test_smooth_lowers_roughness():
     x = np.random.default_rng(0).normal(size=200)
     assert np.abs(np.diff(smooth(x, sigma=3.0), 2)).max() < 0.2 * np.abs(np.diff(x, 2)).max()
+
+
+def test_curve_gaps_does_not_jump_where_the_clip_ends_sooner_than_the_curve():
+    x = np.full(60, 3.0)
+    known = np.ones(60, bool)
+    known[:3] = known[-3:] = False
+    out = curve_gaps(x, known, reach=20)
+    assert np.abs(np.diff(out)).max() < 0.1, "three frames are too few to fade in"
+    np.testing.assert_array_equal(out[known], 3.0)
