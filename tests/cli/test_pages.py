@@ -43,7 +43,7 @@ def done(line: str, run: Run) -> None:
             Path(file).write_text(result.stdout, encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", ["README.md", "docs/quickstart.md", "docs/presets.md"])
+@pytest.mark.parametrize("name", ["README.md", "docs/quickstart.md", "docs/presets.md", "docs/blend.md"])
 def test_commands_work_line_by_line_and_python_twice(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:
@@ -54,6 +54,9 @@ def test_commands_work_line_by_line_and_python_twice(
     if name == "docs/presets.md":
         mien.save(samples.walk(seconds=1.0, fps=30.0).motion, "walk.bvh")
         Path("worn.toml").write_text(blocks(page, "toml")[0])
+    if name == "docs/blend.md":
+        for clip, emotion in (("neutral", {}), ("sad", {"cadence": 1.4}), ("proud", {"step_length": 0.8})):
+            mien.save(samples.walk(seconds=3.0, fps=30.0, **emotion).motion, f"{clip}.bvh")
     for block in blocks(page, "console"):
         for line in block.splitlines():
             done(line, run)
