@@ -18,7 +18,7 @@ def hold_gaps(values: Array, known: Mask) -> Array:
 def curve_gaps(values: Array, known: Mask, *, reach: int) -> Array:
     """Return ``values`` (T, ...) with gaps filled by cubic curves that continue the known slopes.
 
-    Where a gap is longer than ``2 reach`` frames, or at an end of the clip, the values fade to zero
+    Where a gap is longer than ``2 reach`` frames, or at an end of the clip, the values fade towards zero
     within ``reach`` frames of the known side and back again.
     """
     flat = np.where(known[:, None], values.reshape(len(values), -1), 0.0)
