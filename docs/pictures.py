@@ -157,6 +157,15 @@ def presets() -> "Image":
     return beside(*(render.compare(rows, against=calm, poses=3, width=1000) for rows in made))
 
 
+def blend() -> "Image":
+    """Two walks, what lies between and beyond, and the posture of one on the movement of the other."""
+    clips = [samples.walk(seconds=3.0).motion, samples.tired_walk(seconds=4.0).motion]
+    bands = {"low": [0.0, 1.0], "mid": [1.0, 0.0], "high": [1.0, 0.0]}
+    rows = {f"{1 - w:g} calm, {w:g} tired": mien.blend(clips, [1 - w, w]) for w in (0.0, 0.5, 1.0, 1.3)}
+    rows["posture tired, movement calm"] = mien.blend(clips, None, bands=bands)
+    return render.compare(rows, views=["side"], poses=8)
+
+
 def beside(*images: "Image") -> "Image":
     """Return pictures in one row."""
     from PIL import Image
@@ -187,6 +196,7 @@ PICTURES: Mapping[str, Callable[[], "Image"]] = {
     **{f"methods/{f.__name__}": f for f in (trim, resample, mirror, in_place)},
     "presets": presets,
     "grid": square,
+    "blend": blend,
 }
 
 

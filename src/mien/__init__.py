@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from .recipe import Step as Step
     from .styles.grid import Grid as Grid
     from .styles.grid import grid as grid
+    from .styles.multitarget import blend as blend
 
     __version__: str
 
@@ -54,6 +55,7 @@ _HOME = {
     "apply": ".emotion.resolve",
     "before_after": ".analysis.compare",
     "check": ".analysis.checks.report",
+    "blend": ".styles.multitarget",
     "compare": ".analysis.compare",
     "edit": ".emotion.resolve",
     "grid": ".styles.grid",

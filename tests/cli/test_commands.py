@@ -123,12 +123,24 @@ def test_doctor_reports_what_is_broken(run: Run, monkeypatch: pytest.MonkeyPatch
 def test_version_and_help(run: Run) -> None:
     assert run("--version").stdout == f"mien {mien.__version__}\n"
     shown = run("-h").stdout
-    for command in ("demo", "info", "edit", "grid", "presets", "diff", "render", "pose", "doctor"):
+    for command in (
+        "demo",
+        "info",
+        "edit",
+        "grid",
+        "blend",
+        "presets",
+        "diff",
+        "check",
+        "render",
+        "pose",
+        "doctor",
+    ):
         assert re.search(rf"^  {command} ", shown, re.MULTILINE)
         assert run(command, "--help").exit_code == 0
 
 
-@pytest.mark.parametrize("command", ["edit", "grid", "render", "pose"])
+@pytest.mark.parametrize("command", ["edit", "grid", "blend", "render", "pose"])
 def test_help_on_a_narrow_terminal_cuts_nothing(
     run: Run, monkeypatch: pytest.MonkeyPatch, command: str
 ) -> None:

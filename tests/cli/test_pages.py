@@ -53,9 +53,13 @@ def done(line: str, run: Run) -> None:
             Path(file).write_text(result.stdout, encoding="utf-8")
 
 
-@pytest.mark.parametrize(
-    "name", ["README.md", "docs/quickstart.md", "docs/presets.md", "docs/checks.md", "docs/grid.md"]
-)
+PAGES_DONE = [
+    "README.md",
+    *(f"docs/{name}.md" for name in ("quickstart", "presets", "checks", "grid", "blend")),
+]
+
+
+@pytest.mark.parametrize("name", PAGES_DONE)
 def test_commands_work_line_by_line_and_python_twice(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:
@@ -68,6 +72,9 @@ def test_commands_work_line_by_line_and_python_twice(
     for file, text in recipes(page):
         Path(file).parent.mkdir(exist_ok=True)
         Path(file).write_text(text)
+    if name == "docs/blend.md":
+        for clip, emotion in (("neutral", {}), ("sad", {"cadence": 1.4}), ("proud", {"step_length": 0.8})):
+            mien.save(samples.walk(seconds=3.0, fps=30.0, **emotion).motion, f"{clip}.bvh")
     for block in blocks(page, "console"):
         for line in block.splitlines():
             done(line, run)

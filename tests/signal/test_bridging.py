@@ -72,3 +72,12 @@ def test_nearness_of_nothing_and_of_everything():
     assert (nearness(np.zeros(5, bool), reach=3.0) == 0.0).all()
     assert (nearness(np.ones(5, bool), reach=3.0) == 1.0).all()
     assert nearness(np.array([True, False]), reach=0.0).tolist() == [1.0, 0.0]
+
+
+def test_curve_gaps_does_not_jump_where_the_clip_ends_sooner_than_the_curve():
+    x = np.full(60, 3.0)
+    known = np.ones(60, bool)
+    known[:3] = known[-3:] = False
+    out = curve_gaps(x, known, reach=20)
+    assert np.abs(np.diff(out)).max() < 0.1, "three frames are too few to fade in"
+    np.testing.assert_array_equal(out[known], 3.0)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from .blend import blend
 from .check import check
 from .demo import demo
 from .diff import diff
@@ -19,6 +20,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     info,
     edit,
     grid,
+    blend,
     presets,
     diff,
     check,

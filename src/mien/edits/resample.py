@@ -14,6 +14,7 @@ import numpy as np
 from ..kinematics.lead_in import lead_in
 from ..motion import Motion
 from ..rotations import quaternion
+from ..signal.sampling import spline
 from ..typing import Array
 from .registry import Param, edit
 
@@ -54,14 +55,11 @@ def resample(
 
 def _spline(values: Array, at: Array, still: int) -> Array:
     """Return ``values`` (T, ...) at the moments ``at`` (in frames): straight up to ``still``, then smooth."""
-    from scipy.interpolate import CubicSpline, make_interp_spline
+    from scipy.interpolate import make_interp_spline
 
-    if len(values) == 1 or not values.size:
-        return np.repeat(values, len(at), axis=0)[: len(at)]
-    at = np.minimum(at, len(values) - 1)
-    frames = np.arange(len(values))
-    out: Array = CubicSpline(frames[still:], values[still:])(np.maximum(at, still))
+    out = spline(values[still:], np.maximum(at - still, 0.0))
     before = at < still
     if before.any():
-        out[before] = make_interp_spline(frames[: still + 1], values[: still + 1], k=1)(at[before])
+        frames = np.arange(still + 1)
+        out[before] = make_interp_spline(frames, values[: still + 1], k=1)(at[before])
     return out

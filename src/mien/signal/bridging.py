@@ -18,7 +18,7 @@ def hold_gaps(values: Array, known: Mask) -> Array:
 def curve_gaps(values: Array, known: Mask, *, reach: int) -> Array:
     """Return ``values`` (T, ...) with gaps filled by cubic curves that continue the known slopes.
 
-    Where a gap is longer than ``2 reach`` frames, or at an end of the clip, the values fade to zero
+    Where a gap is longer than ``2 reach`` frames, or at an end of the clip, the values fade towards zero
     within ``reach`` frames of the known side and back again.
     """
     flat = np.where(known[:, None], values.reshape(len(values), -1), 0.0)
@@ -32,11 +32,11 @@ def curve_gaps(values: Array, known: Mask, *, reach: int) -> Array:
         slope = np.diff(flat, axis=0, prepend=flat[:1]) * (known & np.r_[False, known[:-1]])[:, None]
         ahead = np.diff(flat, axis=0, append=flat[-1:]) * (known & np.r_[known[1:], False])[:, None]
         _join(flat, gap[joined], before[joined], after[joined], slope, ahead)
-        longest = np.minimum(max(reach, 1), after - before)
+        longest = max(reach, 1)
         left = has_before & ~joined & (gap - before < longest)
         right = has_after & ~joined & (after - gap < longest)
-        _fade(flat, gap[left], before[left], longest[left], slope)
-        _fade(flat, gap[right], after[right], longest[right], -ahead)
+        _fade(flat, gap[left], before[left], longest, slope)
+        _fade(flat, gap[right], after[right], longest, -ahead)
     return flat.reshape(values.shape)
 
 
@@ -49,11 +49,11 @@ def _join(out: Array, frames: Integers, a: Integers, b: Integers, slope: Array, 
     out[frames] = (2 * cube - 3 * square + 1) * out[a] + (3 * square - 2 * cube) * out[b] + bends
 
 
-def _fade(out: Array, frames: Integers, edge: Integers, length: Integers, slope: Array) -> None:
+def _fade(out: Array, frames: Integers, edge: Integers, length: int, slope: Array) -> None:
     """In place: add what each ``edge`` leaves on ``frames`` while it dies out over ``length`` frames."""
     s = (np.abs(frames - edge) / length)[:, None]
     square, cube = s * s, s * s * s
-    bend = (cube - 2 * square + s) * length[:, None] * slope[edge]
+    bend = (cube - 2 * square + s) * length * slope[edge]
     out[frames] += (2 * cube - 3 * square + 1) * out[edge] + bend
 
 

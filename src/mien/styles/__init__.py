@@ -1,1 +1,1 @@
-"""Styles: many versions of one motion at once, and whatever lies between them."""
+"""Styles: several clips make a new one, and whatever lies between many versions of one clip."""
