@@ -81,6 +81,15 @@ def tremor() -> "Image":
     return render.compare(rows, against=mien.apply(still, [step]), poses=6, views=["front"])
 
 
+def tempo() -> "Image":
+    """Show quick and slow steps at one speed over the ground, against the walk shown at that rate."""
+    rows = {}
+    for rate in (1.3, 0.8):
+        steps = Step("tempo", {"rate": rate, "travel": "speed"})
+        rows[f"rate {rate:g}, travel speed"] = mien.apply(walk(), [steps])
+    return render.compare(rows, against=walk(), poses=9, views=["side"])
+
+
 def grid() -> "Image":
     """Show two strokes of a wave at the corners of the square and in its centre."""
     strokes = Step("trim", {"start": 1.2, "end": 2.4})
@@ -191,7 +200,7 @@ def below(*images: "Image") -> "Image":
 
 
 PICTURES: Mapping[str, Callable[[], "Image"]] = {
-    **{f"methods/{f.__name__}": f for f in (waveshape, displacement, tremor)},
+    **{f"methods/{f.__name__}": f for f in (waveshape, tempo, displacement, tremor)},
     **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, grid, foot_plant)},
     **{f"methods/{f.__name__}": f for f in (trim, resample, mirror, in_place)},
     "presets": presets,

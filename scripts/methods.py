@@ -34,6 +34,7 @@ SHOWN = {
     "waveshape": {"small": 0.4},
     "displacement": {"keys": "0.5 none | 1 head 25 0 0 | 2 none"},
     "tremor": {"amount": 2.0},
+    "tempo": {"rate": 1.2, "travel": "speed"},
 }
 
 

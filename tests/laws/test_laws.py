@@ -44,6 +44,7 @@ CASES: Mapping[str, list[dict[str, Any]]] = {
         {"pose": "arms_legs_in", "amount": 0.5, "method": "additive"},
     ],
     "resample": [{"fps": 40}],
+    "tempo": [{"rate": 1.25}, {"rate": 0.8, "travel": "speed"}, {"rate": 1.5, "flight": "free"}],
     "timing": [{"acceleration": 0.6}, {"acceleration": -0.8}, {"acceleration": 0.5, "limbs": ("head",)}],
     "tremor": [{"amount": 3}, {"amount": 5, "low": 0.3, "high": 1, "seed": 7}],
     "trim": [{"end": 1.5}],
@@ -62,6 +63,12 @@ EXCUSED: Mapping[tuple[str, str], str] = {
     "by up to 8 % from rate to rate, as contacts begin on whole frames; tests/edits/test_grid.py shows that "
     "a point of the square is not worse than the nine",
     ("grid", "result_does_not_depend_on_the_skeleton"): "it times limbs as timing does, see there",
+    (
+        "tempo",
+        "result_does_not_depend_on_the_frame_rate",
+    ): "steps that keep their speed stand where the "
+    "middle of a contact is, and one that the end of the clip cuts is seen at one rate and not at the "
+    "other; tests/edits/test_tempo.py shows it for whole steps",
     ("timing", "result_does_not_depend_on_the_skeleton"): "it times the tip of the hand, and skeletons have "
     "hands of different lengths, so that pauses fall some hundredths of a second apart",
     ("tremor", "mirror_commutes"): "left and right shake by noise of their own; if that commuted with a "

@@ -17,9 +17,9 @@ _JOIN = "__"  # between edit and parameter in the name that a flag has inside
 # The order in which edits given by flags are done; an edit that is not named follows its kind.
 ORDER = (
     *("trim", "resample", "mirror", "grid", "path_length", "waveshape", "timing"),
-    *("posture", "displacement", "tremor", "foot_plant", "in_place"),
+    *("posture", "displacement", "tremor", "foot_plant", "tempo", "in_place"),
 )
-_LAST_OF_KIND = {"time": "mirror", "rhythm": "mirror", "pose": "posture", "repair": "foot_plant"}
+_LAST_OF_KIND = {"time": "mirror", "rhythm": "tempo", "pose": "posture", "repair": "foot_plant"}
 
 
 def flag_name(edit: str, parameter: str = "") -> str:

@@ -14,12 +14,11 @@ import numpy as np
 
 from ..kinematics.body import Body
 from ..kinematics.fk import chain
+from ..kinematics.travel import slow_path
 from ..motion import Motion
 from ..rotations import quaternion
 from ..typing import Array
 from .registry import Param, edit
-
-CUTOFF = 0.5  # Hz: below a stride (about 0.9 Hz), whose sway stays, and above a change of course
 
 
 @edit(
@@ -44,8 +43,7 @@ def in_place(
     body = Body.of(motion)
     hips, up = body.roles["hips"], body.up
     joints, rotations, positions = chain(motion, [hips])
-    ground = positions[:, -1] - (positions[:, -1] @ up)[:, None] * up
-    path = slow_path(ground, motion.fps)
+    path = slow_path(positions[:, -1], up, motion.fps)
     shift = -_travel(path, amount)
     above = int(motion.skeleton.parents[hips])
     if above >= 0:
@@ -61,23 +59,3 @@ def _travel(path: Array, amount: float | Array) -> Array:
         return amount * (path - path[0])
     share = 0.5 * (amount[1:] + amount[:-1])
     return np.concatenate([np.zeros((1, 3)), np.cumsum(share[:, None] * np.diff(path, axis=0), axis=0)])
-
-
-def slow_path(x: Array, fps: float) -> Array:
-    """Return the smooth path (T, 3) near ``x``: ``(1 + k D'D) z = x``, ``D`` second differences."""
-    from scipy.linalg import solveh_banded
-
-    if len(x) < 3:
-        return x
-    stiffness = (fps / (2.0 * np.pi * CUTOFF)) ** 4
-    # The three diagonals of D'D: rows of 1 -2 1 overlap, less of them at the ends.
-    bands = np.zeros((3, len(x)))
-    for i, a in enumerate((1.0, -2.0, 1.0)):
-        for j, b in enumerate((1.0, -2.0, 1.0)):
-            if j >= i:
-                bands[2 - (j - i), j : len(x) - 2 + j] += stiffness * a * b
-    bands[2] += 1.0
-    # A straight line is its own answer; taking it out first keeps its last digits.
-    line = x[0] + (x[-1] - x[0]) * np.linspace(0.0, 1.0, len(x))[:, None]
-    z: Array = line + solveh_banded(bands, x - line)
-    return z

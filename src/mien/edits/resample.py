@@ -11,11 +11,8 @@ from typing import Annotated
 
 import numpy as np
 
-from ..kinematics.lead_in import lead_in
+from ..kinematics.resampling import sampled
 from ..motion import Motion
-from ..rotations import quaternion
-from ..signal.sampling import spline
-from ..typing import Array
 from .registry import Param, edit
 
 
@@ -40,26 +37,4 @@ def resample(
     at = np.arange(count) / (fps * motion.frame_time)  # in frames of the clip
     whole = np.round(at)
     at = np.where(np.abs(at - whole) < 1e-9 * len(motion), whole, at)
-    still = lead_in(motion)  # no curve is laid over the jump from a T-pose
-    rotations = quaternion.normalise(_spline(quaternion.continuous(motion.rotations), at, still))
-    translations = np.repeat(motion.translations[:1], count, axis=0)
-    moving = np.ptp(motion.translations, axis=0).any(axis=-1)
-    translations[:, moving] = _spline(motion.translations[:, moving], at, still)
-    return motion.with_(
-        rotations=quaternion.continuous(rotations),
-        translations=translations,
-        frame_time=1.0 / fps,
-        source=None,
-    )
-
-
-def _spline(values: Array, at: Array, still: int) -> Array:
-    """Return ``values`` (T, ...) at the moments ``at`` (in frames): straight up to ``still``, then smooth."""
-    from scipy.interpolate import make_interp_spline
-
-    out = spline(values[still:], np.maximum(at - still, 0.0))
-    before = at < still
-    if before.any():
-        frames = np.arange(still + 1)
-        out[before] = make_interp_spline(frames, values[: still + 1], k=1)(at[before])
-    return out
+    return sampled(motion, at, frame_time=1.0 / fps)

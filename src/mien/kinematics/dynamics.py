@@ -114,6 +114,11 @@ def _below(name: str) -> tuple[str, ...]:
     return tuple(f"{side}_{part}" for part in BELOW[role])
 
 
+def acceleration(places: Array, frame_time: float) -> Array:
+    """Return the acceleration (T, ...) of places (T, ...), smoothed: what is faster than 6 Hz fades."""
+    return _twice(smooth(places, sigma=SMOOTHING / frame_time), frame_time)
+
+
 def _twice(places: Array, dt: float) -> Array:
     """Return the second derivative of places (T, ..., 3); at the ends that of the next frame."""
     out = np.zeros_like(places)
