@@ -81,6 +81,15 @@ def tremor() -> "Image":
     return render.compare(rows, against=mien.apply(still, [step]), poses=6, views=["front"])
 
 
+def nervous() -> "Image":
+    """Show a walk of six seconds whose paths wander, against the even one."""
+    calm = samples.walk(seconds=6.0).motion
+    steps = [Step("nervous", {"paths": 1.0}), Step("foot_plant")]
+    return render.compare(
+        {"paths 1": mien.apply(calm, steps)}, against=calm, poses=18, width=1600, views=["side"]
+    )
+
+
 def tempo() -> "Image":
     """Show quick and slow steps at one speed over the ground, against the walk shown at that rate."""
     rows = {}
@@ -200,7 +209,7 @@ def below(*images: "Image") -> "Image":
 
 
 PICTURES: Mapping[str, Callable[[], "Image"]] = {
-    **{f"methods/{f.__name__}": f for f in (waveshape, tempo, displacement, tremor)},
+    **{f"methods/{f.__name__}": f for f in (waveshape, nervous, tempo, displacement, tremor)},
     **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, grid, foot_plant)},
     **{f"methods/{f.__name__}": f for f in (trim, resample, mirror, in_place)},
     "presets": presets,

@@ -34,6 +34,7 @@ SHOWN = {
     "waveshape": {"small": 0.4},
     "displacement": {"keys": "0.5 none | 1 head 25 0 0 | 2 none"},
     "tremor": {"amount": 2.0},
+    "nervous": {"paths": 0.8, "rhythm": 0.15},
     "tempo": {"rate": 1.2, "travel": "speed"},
 }
 

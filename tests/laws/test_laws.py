@@ -37,6 +37,7 @@ CASES: Mapping[str, list[dict[str, Any]]] = {
     ],
     "in_place": [{}, {"amount": 0.5}],
     "mirror": [{}],
+    "nervous": [{"paths": 1.0, "rhythm": 0.2}, {"paths": 0.6, "seed": 7}, {"rhythm": 0.3}],
     "path_length": [{"mid": 1.6}, {"mid": 0.4, "high": 0.5}, {"mid": 1.5, "mode": "edges"}],
     "posture": [
         {"head": 25, "trunk": 10, "elbows": 20, "arms": 12, "legs": 3},
@@ -63,12 +64,10 @@ EXCUSED: Mapping[tuple[str, str], str] = {
     "by up to 8 % from rate to rate, as contacts begin on whole frames; tests/edits/test_grid.py shows that "
     "a point of the square is not worse than the nine",
     ("grid", "result_does_not_depend_on_the_skeleton"): "it times limbs as timing does, see there",
-    (
-        "tempo",
-        "result_does_not_depend_on_the_frame_rate",
-    ): "steps that keep their speed stand where the "
-    "middle of a contact is, and one that the end of the clip cuts is seen at one rate and not at the "
-    "other; tests/edits/test_tempo.py shows it for whole steps",
+    ("nervous", "mirror_commutes"): "the arms wander each at its own times, as hands do in tremor",
+    ("tempo", "result_does_not_depend_on_the_frame_rate"): "steps that keep their speed stand by the middle "
+    "of a contact, and one that the end of the clip cuts is seen at one rate and not at the other; "
+    "tests/edits/test_tempo.py shows it for whole steps",
     ("timing", "result_does_not_depend_on_the_skeleton"): "it times the tip of the hand, and skeletons have "
     "hands of different lengths, so that pauses fall some hundredths of a second apart",
     ("tremor", "mirror_commutes"): "left and right shake by noise of their own; if that commuted with a "

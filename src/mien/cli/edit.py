@@ -222,7 +222,7 @@ def _eased(recipe: "Recipe", ease: float | None, limited: bool) -> "Recipe":
         return recipe
     if not (limited or any(step.span for step in recipe.steps)):
         raise MienError("--ease is how long the ends of a span take to set in: give --span too")
-    steps = [replace(s, ease=ease) if EDITS[s.edit].kind == "pose" else s for s in recipe.steps]
+    steps = [replace(s, ease=ease) if EDITS[s.edit].kind in ("pose", "rhythm") else s for s in recipe.steps]
     return replace(recipe, steps=tuple(pipeline.check(step) for step in steps))
 
 

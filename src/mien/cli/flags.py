@@ -16,7 +16,7 @@ _JOIN = "__"  # between edit and parameter in the name that a flag has inside
 
 # The order in which edits given by flags are done; an edit that is not named follows its kind.
 ORDER = (
-    *("trim", "resample", "mirror", "grid", "path_length", "waveshape", "timing"),
+    *("trim", "resample", "mirror", "grid", "path_length", "waveshape", "nervous", "timing"),
     *("posture", "displacement", "tremor", "foot_plant", "tempo", "in_place"),
 )
 _LAST_OF_KIND = {"time": "mirror", "rhythm": "tempo", "pose": "posture", "repair": "foot_plant"}
@@ -58,7 +58,7 @@ def compose(
     if foot_plant is False:
         return tuple(step for step in made if step.edit != "foot_plant")
     names = {step.edit for step in made}
-    if foot_plant and "foot_plant" not in names and any(EDITS[name].kind == "pose" for name in names):
+    if foot_plant and "foot_plant" not in names and any(EDITS[name].poses for name in names):
         _insert(made, Step("foot_plant"))
     return tuple(made)
 

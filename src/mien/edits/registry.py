@@ -44,6 +44,11 @@ class Edit:
     parameters: Mapping[str, Parameter]
     asks: frozenset[str]
 
+    @property
+    def poses(self) -> bool:
+        """Whether it changes poses, so that feet may have to be put back: some edits of rhythm do too."""
+        return self.kind == "pose" or "only_time" in self.asks
+
     def perform(
         self,
         motion: Motion,

@@ -35,6 +35,13 @@ def frames_at(rates: Array) -> Array:
     return np.interp(np.arange(count), shown, np.arange(len(rates)))
 
 
+def of_length(rates: Array) -> Array:
+    """Return rates (T,) in the same proportions that show the motion in as many frames as it has."""
+    slow = 1.0 / rates
+    mean = 0.5 * float((slow[1:] + slow[:-1]).mean())
+    return rates * mean
+
+
 def free_flight(motion: Motion, original: Motion, body: Body, rates: Array) -> tuple[Motion, Array]:
     """Return the motion and rates with which flights, shown at those rates, fall by gravity.
 

@@ -25,3 +25,9 @@ def noise(at: Array, *, low: float, high: float, seed: int, stream: str) -> Arra
     frequencies = low + (high - low) * (np.arange(COMPONENTS) + random[0]) / COMPONENTS
     angles = 2.0 * np.pi * (np.multiply.outer(at, frequencies) + random[1])
     return np.sqrt(2.0 / COMPONENTS) * np.cos(angles).sum(axis=-1)
+
+
+def wander(at: Array, *, low: float, high: float, seed: int, stream: str) -> Array:
+    """Return a curve (T,) that wanders between about -1 and 1 with the mean 0: ``tanh`` of ``noise``."""
+    curve = np.tanh(noise(at, low=low, high=high, seed=seed, stream=stream))
+    return np.asarray(curve - curve.mean() if len(curve) else curve)
