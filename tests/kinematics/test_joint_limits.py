@@ -8,7 +8,8 @@ import pytest
 from mien import samples
 from mien.kinematics.body import Body
 from mien.kinematics.fk import world
-from mien.kinematics.joint_limits import JOINTS, JointAngles, joint_angles
+from mien.kinematics.joint_angles import joint_angles
+from mien.kinematics.joint_limits import JOINTS, JointAngles
 from mien.kinematics.mirroring import mirrored
 from mien.motion import Motion
 from mien.rotations import quaternion as quat

@@ -1,4 +1,4 @@
-"""How far joints turn, in anatomy's terms, and how far beyond what bodies can do.
+"""How far the joints of a body can turn, and how far beyond that they are.
 
 Angles are those of each segment against the one it hangs on, from the calm stance: flexion and abduction
 (how the bone is swung) and rotation (its twist). They say the same for every skeleton, and swing and twist
@@ -14,11 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..motion import Motion
-from ..rotations import quaternion
 from ..typing import Array
-from .body import SIDES, Body
-from .poses import neutral_world
+from .roles import SIDES
 
 Pair = tuple[float, float]
 
@@ -48,10 +45,20 @@ JOINTS: Mapping[str, tuple[str, Range]] = {
     "ankle": ("knee", Range((-65, 50), (-45, 45), (-45, 45))),
 }
 SIDELESS = ("chest", "head")
-# A positive turn about the body's left swings a limb back and the trunk forward.
-FORWARD = {"chest": 1.0, "head": 1.0, "knee": 1.0}
 OVERHEAD = 120.0  # degrees: beyond, swing and twist of a ball joint say nothing (they turn over at 180)
-CLEAR_BEND = 0.3  # sine of the bend from which a hinge's plane is plain to see
+
+
+def plain(name: str) -> str:
+    """Return the name of a joint without its side."""
+    return name.removeprefix("left_").removeprefix("right_")
+
+
+def range_of(name: str) -> Range:
+    """Return what a joint can do, such as ``left_knee``."""
+    return JOINTS[plain(name)][1]
+
+
+NAMES = (*SIDELESS, *(f"{side}_{role}" for side in SIDES for role in JOINTS if role not in SIDELESS))
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +73,7 @@ class JointAngles:
 
         Swing is bounded by an ellipse through the four limits, twist by its two; the larger excess counts.
         """
-        ranges = [JOINTS[_plain(name)][1] for name in self.names]
+        ranges = [range_of(name) for name in self.names]
         flexion, abduction = self.angles[..., 0], self.angles[..., 1]
         limits = np.array([[r.flexion, r.abduction, r.rotation] for r in ranges], float)  # (R, 3, 2)
         hinge = np.array([r.hinge for r in ranges])
@@ -76,84 +83,6 @@ class JointAngles:
         radius = np.hypot(flexion / bent, abduction / aside)
         swung = np.hypot(flexion, abduction) * (1.0 - 1.0 / np.maximum(radius, 1.0))
         swing = np.where(hinge, np.maximum(over[..., 0], over[..., 1]), swung)
-        ball = np.array([_plain(name) in ("shoulder", "hip") for name in self.names])
+        ball = np.array([plain(name) in ("shoulder", "hip") for name in self.names])
         raised = ball & (np.hypot(flexion, abduction) > OVERHEAD)
         return np.where(raised, 0.0, np.maximum(np.maximum(swing, over[..., 2]), 0.0))
-
-
-def _plain(name: str) -> str:
-    return name.removeprefix("left_").removeprefix("right_")
-
-
-def joint_angles(motion: Motion, body: Body, rotations: Array) -> JointAngles:
-    """Return the angles of every joint that ``body`` has, from the world rotations (T, J, 4) of ``motion``.
-
-    Rotation is positive outward (to the left, of the trunk); flexion of a hinge is measured in the plane that
-    the clip shows it to bend in.
-    """
-    names = [n for n in _names() if n in body.roles and (_plain(n) != "chest" or body.spine)]
-    joints = [body.roles[n] for n in names]
-    bases = [_base(n, body) for n in names]
-    stance, points = neutral_world(motion, body)
-    turned = quaternion.multiply(quaternion.conjugate(rotations[:, bases]), rotations[:, joints])
-    seen = quaternion.multiply(
-        stance[bases], quaternion.multiply(turned, quaternion.conjugate(stance[joints]))
-    )
-    twist = quaternion.twist(seen, body.up)
-    swing = quaternion.log(quaternion.multiply(seen, quaternion.conjugate(twist)))
-    out = np.stack([swing @ body.left, swing @ body.forward, quaternion.log(twist) @ body.up], axis=-1)
-    out *= np.array([_signs(n) for n in names])
-    for r, name in enumerate(names):
-        if JOINTS[_plain(name)][1].hinge:
-            found = _hinge(seen[:, r], _bones(name, body, points), _expected(name, body))
-            out[:, r, :2] = found * [1.0, _signs(name)[1]]
-    return JointAngles(tuple(names), np.degrees(out))
-
-
-def _names() -> list[str]:
-    sided = [r for r in JOINTS if r not in SIDELESS]
-    return [*SIDELESS, *(f"{side}_{role}" for side in SIDES for role in sided)]
-
-
-def _base(name: str, body: Body) -> int:
-    """Return the joint that a joint's angles are measured against."""
-    above = JOINTS[_plain(name)][0]
-    if above in ("hips", "chest"):
-        return body.spine[-1] if above == "chest" and body.spine else body.roles["hips"]
-    return body.roles[f"{name.split('_')[0]}_{above}"]
-
-
-def _signs(name: str) -> tuple[float, float, float]:
-    side = -1.0 if name.startswith("right") else 1.0
-    return FORWARD.get(_plain(name), -1.0), side, side
-
-
-def _bones(name: str, body: Body, points: Array) -> tuple[Array, Array]:
-    """Return the unit directions of the bones above and below a hinge in the neutral stance."""
-    side, role = name.split("_")
-    above = points[body.roles[name]] - points[body.roles[f"{side}_{JOINTS[role][0]}"]]
-    tip = body.roles.get(f"{side}_{'wrist' if role == 'elbow' else 'ankle'}")
-    below = above if tip is None else points[tip] - points[body.roles[name]]
-    return _unit(above), _unit(below)
-
-
-def _expected(name: str, body: Body) -> Array:
-    """Return the axis that a hinge bends about where a clip does not show it."""
-    return body.left if name.endswith("knee") else -body.left
-
-
-def _hinge(seen: Array, bones: tuple[Array, Array], expected: Array) -> Array:
-    """Return flexion and deviation (T, 2) in radians: the bone below in and out of the hinge's plane."""
-    above, below = bones
-    direction = quaternion.rotate(seen, below)
-    normal = np.cross(above, direction)
-    clear = np.sum(normal * normal, axis=-1, keepdims=True) / CLEAR_BEND**2 * normal
-    usual = clear.mean(axis=0)
-    # A clip that bends a hinge only the wrong way does not make it the right way.
-    axis = _unit(np.sign(usual @ expected) * usual + CLEAR_BEND * expected)
-    flexion = np.arctan2(np.cross(above, direction) @ axis, direction @ above)
-    return np.stack([flexion, np.arcsin(np.clip(direction @ axis, -1.0, 1.0))], axis=-1)
-
-
-def _unit(v: Array) -> Array:
-    return v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-12)

@@ -88,6 +88,26 @@ def put_feet(before: Placed, after: Placed, goals: Sequence[Goal], planted: Mask
     return after.motion.with_(rotations=quaternion.continuous(rotations))
 
 
+def over_feet(pose: Placed, shift: Array, planted: Mask, body: Body) -> Motion:
+    """Return the motion with the hips moved by ``shift`` (T, 3) and both feet where they are.
+
+    The hips come down by so much that no planted leg gets straighter than it is: a knee that is nearly
+    straight would bend a lot for little.
+    """
+    goals, lower = [], np.zeros(len(shift))
+    for foot, side in enumerate(SIDES):
+        ankle = body.roles[f"{side}_ankle"]
+        stands = planted[:, foot].astype(float)
+        goals.append(Goal(pose.positions[:, ankle], pose.rotations[:, ankle], stands, met=False))
+        leg = pose.positions[:, body.roles[f"{side}_hip"]] - pose.positions[:, ankle]
+        height = (leg + shift) @ body.up
+        across = (leg + shift) - height[:, None] * body.up
+        room = (leg * leg).sum(axis=1) - (across * across).sum(axis=1)
+        lower = np.maximum(lower, np.where(planted[:, foot], height - np.sqrt(np.maximum(room, 0.0)), 0.0))
+    down = envelope(lower, reach=round(0.12 / pose.motion.frame_time))
+    return put_feet(pose, shifted(pose, shift - down[:, None] * body.up, body), goals, planted, body)
+
+
 def clear_of(planted: Mask, frame_time: float, seconds: float) -> Array:
     """Return 0 while planted, growing to 1 within some seconds of swing (T,)."""
     from scipy.ndimage import distance_transform_edt

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..rotations import quaternion
 from ..signal import multiresolution
+from ..signal.bridging import smooth
 from ..typing import Array
 
 _LOW, _LOW_AND_MID = (multiresolution.three_bands(*gains) for gains in ((1.0, 0.0, 0.0), (1.0, 1.0, 0.0)))
@@ -28,6 +29,16 @@ def slow_mean(rotations: Array, fps: float, *, frames: int) -> tuple[Array, Arra
 def without_fine(rotations: Array, fps: float) -> Array:
     """Return sign-continuous ``rotations`` (T, J, 4) below 12.5 Hz (nominal; half amplitude at 8.2 Hz)."""
     return quaternion.normalise(_filtered(rotations, fps, _LOW_AND_MID, wrap=False))
+
+
+def calm_change(before: Array, after: Array, *, sigma: float) -> Array:
+    """Return the rotations ``before`` (T, J, 4) with their change to ``after`` averaged over time.
+
+    With a Gaussian of ``sigma`` frames, so that short changes get smaller as they get smoother.
+    """
+    change = quaternion.log(quaternion.multiply(quaternion.conjugate(before), after))
+    calm = quaternion.exp(smooth(change, sigma=sigma))
+    return quaternion.continuous(quaternion.multiply(before, calm))
 
 
 def _filtered(rotations: Array, fps: float, gains: tuple[float, ...], *, wrap: bool) -> Array:

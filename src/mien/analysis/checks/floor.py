@@ -7,6 +7,7 @@ height, so that thick shoes and toes without a joint do no harm; any other part 
 import numpy as np
 
 from ...kinematics.contacts import standing_level
+from ...kinematics.raising import lowest
 from .check import Check, Measured
 from .scene import Scene
 
@@ -19,7 +20,7 @@ def measure(scene: Scene) -> Measured:
     sunk = np.maximum(level - height, 0.0).max(axis=2)
     hover = np.where(scene.contacts.points, np.maximum(height - level, 0.0), np.inf).min(axis=2)
     hover = np.where(np.isfinite(hover), hover, 0.0)
-    rest = np.maximum(floor - _others(scene), 0.0)
+    rest = np.maximum(floor - lowest(scene.motion, scene.body, scene.positions), 0.0)
     values = np.concatenate([sunk, hover, rest[:, None]], axis=1)
     return Measured(values * scene.centimetres, PARTS)
 
@@ -31,14 +32,6 @@ def _level(scene: Scene) -> np.ndarray:
     """Return the height (2, 2) at which each point of the source's feet usually stands."""
     of = scene.source or scene
     return standing_level(of.feet @ of.body.up, of.body.leg_length)
-
-
-def _others(scene: Scene) -> np.ndarray:
-    """Return the height (T,) of the lowest joint that is not of the feet."""
-    skeleton, roles = scene.motion.skeleton, scene.body.roles
-    feet = {j for side in ("left", "right") for j in skeleton.descendants(roles[f"{side}_ankle"])}
-    others = [j for j in skeleton.descendants(roles["hips"]) if j not in feet]
-    return np.asarray((scene.positions[:, others] @ scene.body.up).min(axis=1))
 
 
 CHECK = Check("floor", "feet sink or hover", "cm", 1, limit=8.0, tolerance=1.0, measure=measure)

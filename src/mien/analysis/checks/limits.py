@@ -3,7 +3,7 @@
 Swing and twist of each joint against the ranges of ``kinematics.joint_limits``.
 """
 
-from ...kinematics.joint_limits import joint_angles
+from ...kinematics.joint_angles import joint_angles
 from .check import Check, Measured
 from .scene import Scene
 
