@@ -315,6 +315,19 @@ def test_at_impacts_feet_stop_harder_or_softer():
     assert stop(-1.0) < 0.85 * stop(0.0)
 
 
+def test_at_impacts_feet_that_an_edit_made_slide_hurry_where_they_were_in_the_air():
+    clip = walk(seconds=4.0).motion
+    body, planted = Body.of(clip), detect(clip)
+    longer = apply(clip, [Step("path_length", {"mid": 1.5})])
+    assert (detect(longer, body=body).feet != planted.feet).any()
+    out = apply(longer, [Step("timing", {"acceleration": 1.0, **IMPACTS})])
+    for foot, leg in enumerate(("left_leg", "right_leg")):
+        joints = body.joints((leg,))
+        changed = (out.rotations != longer.rotations)[:, joints].any(axis=(1, 2))
+        assert not (changed & planted.feet[:, foot]).any()
+        assert changed.mean() > 0.15
+
+
 def test_at_impacts_only_the_named_limbs_change():
     clip = walk(seconds=3.0).motion
     body = Body.of(clip)

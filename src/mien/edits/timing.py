@@ -15,6 +15,7 @@ comes in hard and stops hard; all else stays. That is what the thesis saw in its
 from typing import Annotated, Literal
 
 from ..kinematics.body import Body
+from ..kinematics.lead_in import lead_in, without_lead_in
 from ..kinematics.limb_timing import MEETING, USUAL, Limb, Relative, impact_maps, limb_maps, loop, show
 from ..kinematics.loops import Boundary
 from ..kinematics.swung_feet import keep_feet
@@ -85,8 +86,17 @@ def timing(
     chosen = usual if limbs is None else limbs
     if where == "impacts":
         pace = min(HARDEST, steepest**2) ** (0.5 * acceleration)
-        maps = impact_maps(motion, body, pace, limbs=chosen, longest=segment, round_length=around)
+        walked = _captured(motion)
+        maps = impact_maps(
+            motion, body, pace, limbs=chosen, original=walked, longest=segment, round_length=around
+        )
         return keep_feet(show(motion, body, maps), motion, body, maps)
     rule = Rule(acceleration, mode, rests, segment, steepest)
     maps = limb_maps(motion, body, rule, limbs=chosen, relative=relative, round_length=around)
     return show(motion, body, maps)
+
+
+def _captured(motion: Motion) -> Motion:
+    """Return the motion before its edits, as its feet stand; a still at its start is no movement."""
+    before = motion.reference or motion
+    return without_lead_in(before, lead_in(before))

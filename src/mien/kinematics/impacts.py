@@ -26,6 +26,7 @@ def impacts(
     body: Body,
     *,
     limbs: Sequence[str],
+    original: Motion | None = None,
     round_length: int = 0,
     longest: float = LONGEST,
 ) -> dict[str, Array]:
@@ -34,15 +35,17 @@ def impacts(
     ``limbs`` are arms and legs; others, and those without impacts, are left out. An impact of an arm is the
     end of a stroke, in fractions of frames, wound up for since the rest or the reversal before; of a leg the
     first frame of a contact, wound up for since the foot left the floor; neither for more than ``longest``
-    seconds. Stretches do not overlap. In a loop ``round_length`` is how many frames make one round, and what
-    is wound up for before the first frame has a start below 0.
+    seconds. Stretches do not overlap. Contacts are those of the ``original``, as edited feet may slide and
+    float until they are put back. In a loop ``round_length`` is how many frames make one round, and what is
+    wound up for before the first frame has a start below 0.
     """
     rotations, positions = world(motion)
     found = {}
     for side in (side for side in SIDES if f"{side}_arm" in limbs):
         hand = Hand.of(body, motion, side, rotations, positions)
         found[f"{side}_arm"] = _blows(hand, motion.frame_time, round_length)
-    feet = foot_points(motion, body, rotations, positions)
+    seen = original or motion
+    feet = foot_points(seen, body, *world(seen))
     planted = detect_points(feet, body, motion.frame_time).feet
     height = feet @ body.up
     raised = (height - standing_level(height, body.leg_length)).max(axis=2) > HEIGHT * body.leg_length

@@ -76,6 +76,7 @@ def impact_maps(
     pace: float,
     *,
     limbs: Sequence[str] = MEETING,
+    original: Motion | None = None,
     longest: float | None = None,
     round_length: int = 0,
 ) -> LimbMaps:
@@ -83,9 +84,17 @@ def impact_maps(
 
     The last 0.15 s before each impact (0.2 s of feet) run up to ``pace`` times as fast, so that the stop is
     up to ``pace^2`` times as hard; below 1 it is softer. What that gains or takes comes from the wind-up,
-    which lasts ``longest`` seconds at most (None: 0.9). Feet keep their contacts.
+    which lasts ``longest`` seconds at most (None: 0.9). Feet keep their contacts, which are those of the
+    ``original`` (None: the motion).
     """
-    found = impacts(motion, body, limbs=limbs, round_length=round_length, longest=longest or LONGEST)
+    found = impacts(
+        motion,
+        body,
+        limbs=limbs,
+        original=original,
+        round_length=round_length,
+        longest=longest or LONGEST,
+    )
     own = np.arange(len(motion), dtype=float)
     out = {}
     for limb, at in found.items():

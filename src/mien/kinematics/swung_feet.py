@@ -32,38 +32,33 @@ def keep_feet(shown: Motion, motion: Motion, body: Body, maps: LimbMaps) -> Moti
     own = np.arange(len(motion), dtype=float)
     at = np.stack([maps.frames.get(leg, own) for leg in legs], axis=1)
     moved = at != own[:, None]
-    place, turned = _steady_hips(motion, body)
-    ankles = Ankles.of(motion, body)
-    paths = quaternion.rotate(quaternion.conjugate(turned)[:, None], ankles.positions - place[:, None])
-    turns = quaternion.continuous(
-        quaternion.multiply(quaternion.conjugate(turned)[:, None], ankles.rotations)
-    )
-    positions, rotations = np.array(ankles.positions), np.array(ankles.rotations)
-    for foot in range(2):
-        some = moved[:, foot]
-        here, after, part = between(
-            at[some, foot], maps.round_length or len(motion), wrap=maps.round_length > 0
-        )
-        path = paths[here, foot] + part[:, None] * (paths[after, foot] - paths[here, foot])
-        turn = quaternion.slerp(turns[here, foot], turns[after, foot], part)
-        positions[some, foot] = place[some] + quaternion.rotate(turned[some], path)
-        rotations[some, foot] = quaternion.multiply(turned[some], turn)
-    away = np.linalg.norm(positions - Ankles.of(shown, body).positions, axis=-1)
+    goal = _on_path(motion, body, at, maps.round_length)
+    away = np.linalg.norm(goal.positions - Ankles.of(shown, body).positions, axis=-1)
     share = moved / np.sqrt(1.0 + (away / (TREMBLE * body.leg_length)) ** 2)
-    out = move_ankles(shown, body, Ankles(positions, rotations), share=share)
-    changed = np.array(shown.rotations)
+    bent = move_ankles(shown, body, goal, share=share)
+    rotations = np.array(shown.rotations)
     for foot, leg in enumerate(legs):
         there = np.ix_(np.flatnonzero(moved[:, foot]), np.array(body.joints((leg,))))
-        changed[there] = out.rotations[there]
-    return shown.with_(rotations=quaternion.continuous(changed))
+        rotations[there] = bent.rotations[there]
+    return shown.with_(rotations=quaternion.continuous(rotations))
+
+
+def _on_path(motion: Motion, body: Body, at: Array, round_length: int) -> Ankles:
+    """Return the ankles where the steady hips see them at the frames ``at`` (T, 2)."""
+    place, turned = (x[:, None] for x in _steady_hips(motion, body))
+    ankles, feet = Ankles.of(motion, body), np.arange(2)
+    paths = quaternion.rotate(quaternion.conjugate(turned), ankles.positions - place)
+    turns = quaternion.multiply(quaternion.conjugate(turned), ankles.rotations)
+    here, after, part = between(at, round_length or len(motion), wrap=round_length > 0)
+    path = paths[here, feet] + part[..., None] * (paths[after, feet] - paths[here, feet])
+    turn = quaternion.slerp(turns[here, feet], turns[after, feet], part)
+    return Ankles(place + quaternion.rotate(turned, path), quaternion.multiply(turned, turn))
 
 
 def _steady_hips(motion: Motion, body: Body) -> tuple[Array, Array]:
     """Return where the hips are (T, 3) and how they are turned (T, 4), without what is fast in it."""
     hips = body.roles["hips"]
     order, rotations, positions = chain(motion, [hips])
-    sigma = STEADY / motion.frame_time
-    turned = quaternion.continuous(rotations[:, order.index(hips)])
-    return smooth(positions[:, order.index(hips)], sigma=sigma), quaternion.normalise(
-        smooth(turned, sigma=sigma)
-    )
+    at, sigma = order.index(hips), STEADY / motion.frame_time
+    turned = smooth(quaternion.continuous(rotations[:, at]), sigma=sigma)
+    return smooth(positions[:, at], sigma=sigma), quaternion.normalise(turned)
