@@ -52,6 +52,28 @@ def timing() -> "Image":
     return render.compare(rows, poses=12, views=["front"])
 
 
+def impacts() -> "Image":
+    """Show a foot that comes down, and a knock, softer and harder than they were."""
+    clips = ((samples.walk(), {"start": 1.3, "end": 1.7}), (samples.knock(), {"start": 1.25, "end": 1.55}))
+    return below(
+        *(
+            render.compare(
+                {
+                    f"at impacts, acceleration {a:g}": mien.apply(
+                        clip.motion,
+                        [Step("timing", {"acceleration": a, "where": "impacts"}), Step("trim", cut)],
+                    )
+                    for a in (-1.0, 1.0)
+                },
+                against=mien.apply(clip.motion, [Step("trim", cut)]),
+                poses=9,
+                views=["side"],
+            )
+            for clip, cut in clips
+        )
+    )
+
+
 def waveshape() -> "Image":
     """Small movement less, small movement more, and a limit."""
     calm = walk()
@@ -210,7 +232,7 @@ def below(*images: "Image") -> "Image":
 
 PICTURES: Mapping[str, Callable[[], "Image"]] = {
     **{f"methods/{f.__name__}": f for f in (waveshape, nervous, tempo, displacement, tremor)},
-    **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, grid, foot_plant)},
+    **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, impacts, grid, foot_plant)},
     **{f"methods/{f.__name__}": f for f in (trim, resample, mirror, in_place)},
     "presets": presets,
     "grid": square,

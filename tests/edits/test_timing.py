@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 
+from mien import Step, apply, load
+from mien.analysis.checks.report import check
 from mien.edits.timing import timing
 from mien.kinematics.body import Body
 from mien.kinematics.bones import main_bones
+from mien.kinematics.contacts import detect, foot_points, slides
 from mien.kinematics.fk import world
+from mien.kinematics.limb_timing import loop
 from mien.motion import Motion
 from mien.rotations import directions, quaternion
 from mien.samples import walk
@@ -224,3 +228,181 @@ def test_shorter_than_a_set(frames):
     clip = arm_clip(knocks(60.0)[:frames], 60.0)
     out = timing(clip, acceleration=1.0)
     np.testing.assert_allclose(shown_angle(out), shown_angle(clip), atol=1e-9)
+
+
+IMPACTS = {"where": "impacts"}
+
+
+def strike(fps, start=1.0, move=0.25):
+    """An angle that rests, goes by a radian in ``move`` seconds with least jerk, and stays."""
+    t = np.arange(round(3.5 * fps) + 1) / fps
+    u = np.clip((t - start) / move, 0.0, 1.0)
+    return u**3 * (10.0 - 15.0 * u + 6.0 * u * u)
+
+
+def hardest_stop(angle, fps):
+    return -np.diff(angle, n=2).min() * fps * fps
+
+
+@pytest.mark.parametrize("amount", [-1.0, -0.5, 0.5, 1.0])
+def test_at_impacts_the_stop_gets_harder_by_two_to_the_amount(amount):
+    fps = 240.0
+    clip = arm_clip(strike(fps), fps)
+    out = timing(clip, acceleration=amount, **IMPACTS)
+    gain = hardest_stop(shown_angle(out), fps) / hardest_stop(shown_angle(clip), fps)
+    # As much where time runs fastest; that is not quite where the stop is hardest.
+    assert min(1.0, 2.0**amount) < gain < 1.3 * max(1.0, 2.0**amount)
+    assert (gain > 1.15) == (amount > 0.0)
+    assert (gain < 0.87) == (amount < 0.0)
+
+
+@pytest.mark.parametrize("amount", [-1.0, 0.5, 1.0])
+@pytest.mark.parametrize("fps", [30.0, 60.0, 120.0])
+def test_at_impacts_all_but_the_stroke_and_its_wind_up_is_the_very_motion(amount, fps):
+    clip = arm_clip(strike(fps) + strike(fps, start=2.0, move=0.8), fps)
+    out = timing(clip, acceleration=amount, **IMPACTS)
+    assert len(out) == len(clip)
+    at = np.arange(len(clip)) / fps
+    same = (out.rotations == clip.rotations).all(axis=(1, 2))
+    assert same[(at < 1.25 - 0.9) | (at > 1.25 + 1.0 / fps)].all()  # also in the slow move that follows
+    moved = shown_angle(out) - shown_angle(clip)
+    assert np.abs(moved[(at > 1.0) & (at < 1.25)]).max() > 0.03
+    assert (np.diff(shown_angle(out)) >= -1e-9).all()
+
+
+@pytest.mark.parametrize("amount", [-1.0, 1.0])
+@pytest.mark.parametrize("steepest", [1.1, 2.5])
+def test_at_impacts_no_limb_runs_faster_than_allowed(amount, steepest):
+    fps = 240.0
+    ramp = arm_clip(strike(fps), fps)
+    fast = speeds(timing(ramp, acceleration=amount, steepest=steepest, **IMPACTS)).max() / speeds(ramp).max()
+    assert 1.0 / min(steepest, 2.0**0.5) - 0.01 < fast < min(steepest, 2.0**0.5) + 0.01
+
+
+def test_at_impacts_the_arms_of_a_walk_and_its_standing_feet_are_left_alone():
+    clip = walk(seconds=4.0).motion
+    body = Body.of(clip)
+    planted = detect(clip, body=body)
+    for amount in (-1.0, 0.5, 1.0):
+        out = timing(clip, acceleration=amount, **IMPACTS)
+        others = [j for j in range(len(clip.skeleton)) if j not in body.joints(("legs",))]
+        np.testing.assert_array_equal(out.rotations[:, others], clip.rotations[:, others])
+        np.testing.assert_array_equal(out.translations, clip.translations)
+        for foot, leg in enumerate(("left_leg", "right_leg")):
+            stands, joints = planted.feet[:, foot], body.joints((leg,))
+            np.testing.assert_array_equal(out.rotations[stands][:, joints], clip.rotations[stands][:, joints])
+            moved = np.abs(out.rotations[~stands] - clip.rotations[~stands])[:, joints]
+            assert moved.max() > 0.02
+        np.testing.assert_array_equal(slides(out, planted, body), slides(clip, planted, body))
+
+
+def test_at_impacts_feet_stop_harder_or_softer():
+    clip = walk(seconds=4.0, fps=120.0).motion
+    body = Body.of(clip)
+    strikes = [f for f in np.diff(detect(clip, body=body).feet[:, 0].astype(int)).nonzero()[0] if f > 30][
+        1::2
+    ]
+
+    def stop(amount):
+        out = timing(clip, acceleration=amount, **IMPACTS)
+        heel = foot_points(out, body, *world(out))[:, 0, 0]
+        speed = np.linalg.norm(np.diff(heel, axis=0), axis=1)
+        return np.mean([-np.diff(speed[f - 18 : f + 1]).min() for f in strikes])
+
+    assert len(strikes) >= 2
+    assert stop(1.0) > 1.3 * stop(0.0)
+    assert stop(0.5) > 1.1 * stop(0.0)
+    assert stop(-1.0) < 0.85 * stop(0.0)
+
+
+def test_at_impacts_feet_that_an_edit_made_slide_hurry_where_they_were_in_the_air():
+    clip = walk(seconds=4.0).motion
+    body, planted = Body.of(clip), detect(clip)
+    longer = apply(clip, [Step("path_length", {"mid": 1.5})])
+    assert (detect(longer, body=body).feet != planted.feet).any()
+    out = apply(longer, [Step("timing", {"acceleration": 1.0, **IMPACTS})])
+    for foot, leg in enumerate(("left_leg", "right_leg")):
+        joints = body.joints((leg,))
+        changed = (out.rotations != longer.rotations)[:, joints].any(axis=(1, 2))
+        assert not (changed & planted.feet[:, foot]).any()
+        assert changed.mean() > 0.15
+
+
+def test_at_impacts_only_the_named_limbs_change():
+    clip = walk(seconds=3.0).motion
+    body = Body.of(clip)
+    out = timing(clip, acceleration=0.8, limbs=("left_leg", "head"), **IMPACTS)
+    changed = np.abs(out.rotations - clip.rotations).max(axis=(0, 2)) > 0
+    assert set(np.flatnonzero(changed)) <= set(body.joints(("left_leg",)))
+    assert changed[body.roles["left_knee"]]
+
+
+@pytest.mark.parametrize("amount", [-1.0, 1.0])
+def test_at_impacts_a_loop_stays_a_loop_wherever_it_is_cut(amount):
+    t = np.arange(120) / 50.0
+    u = np.clip((t - 0.8) / 0.25, 0.0, 1.0) - np.clip((t - 1.5) / 0.7, 0.0, 1.0)
+    clip = arm_clip(0.5 * (1.0 - np.cos(np.pi * u)), 50.0)
+    out = timing(clip, acceleration=amount, **IMPACTS)
+    assert np.abs(shown_angle(out) - shown_angle(clip)).max() > 0.03
+    for shift in (31, 71, 83):  # in the rest, in the wind-up, in the stroke
+        turned = clip.with_(rotations=np.roll(clip.rotations, -shift, axis=0))
+        rolled = timing(turned, acceleration=amount, boundary="wrap", **IMPACTS)
+        whole = timing(clip, acceleration=amount, boundary="wrap", **IMPACTS)
+        np.testing.assert_allclose(shown_angle(rolled), np.roll(shown_angle(whole), -shift), atol=2e-3)
+
+
+@pytest.mark.parametrize("first", [60, 77, 98, 111])
+def test_at_impacts_a_looping_walk_still_loops(first):
+    stride = walk(seconds=4.0, cadence=1.6, fps=60.0).motion[first : first + 75]  # two steps
+    body = Body.of(stride)
+    out = timing(stride, acceleration=1.0, **IMPACTS)
+    assert loop(stride, body) == loop(out, body) == 75
+    knees = [body.roles["left_knee"], body.roles["right_knee"]]
+    assert (np.abs(out.rotations - stride.rotations)[:, knees].max(axis=(0, 2)) > 0.02).all()
+    planted = detect(stride, body=body)
+    np.testing.assert_array_equal(slides(out, planted, body), slides(stride, planted, body))
+
+
+def test_at_impacts_the_frame_rate_does_not_matter():
+    shown = []
+    for fps in (30.0, 60.0, 120.0):
+        out = timing(arm_clip(knocks(fps, move=0.25, pause=0.5), fps), acceleration=1.0, **IMPACTS)
+        shown.append(shown_angle(out)[:: int(fps / 30.0)])
+    fastest = np.abs(np.diff(shown[2])).max() * 30.0
+    assert np.abs(shown[0] - shown[2]).max() < 0.016 * fastest
+    assert np.abs(shown[1] - shown[2]).max() < 0.006 * fastest
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3, 20])
+def test_at_impacts_short_clips_are_the_very_motion(frames):
+    clip = arm_clip(knocks(60.0)[:frames], 60.0)
+    np.testing.assert_array_equal(timing(clip, acceleration=1.0, **IMPACTS).rotations, clip.rotations)
+
+
+CAPTURES = (
+    "bandai1/dataset-1_walk_angry_001.bvh",
+    "bandai1/dataset-1_run_normal_001.bvh",
+    "bandai2/dataset-2_walk_normal_024.bvh",
+    "cmu_daz/07_01.bvh",
+    "cmu_mb_misc/02_01.bvh",
+    "xia/neutral_01_000.bvh",
+    "reactidle/000_genuine.bvh",
+    "exporters/walk01.bvh",
+)
+
+
+@pytest.mark.parametrize("name", CAPTURES)
+def test_at_impacts_captured_feet_neither_slide_nor_tremble_and_arms_are_left_alone(data, name):
+    if not (data / name).exists():
+        pytest.skip(f"no {name}")
+    clip = load(data / name)[:1000]
+    body = Body.of(clip)
+    planted = detect(clip, body=body)
+    out = apply(clip, [Step("timing", {"acceleration": 0.5, **IMPACTS})])
+    assert np.abs(out.rotations - clip.rotations).max() > 0.01
+    np.testing.assert_array_equal(slides(out, planted, body), slides(clip, planted, body))
+    report = check(out, against=clip, only=("foot_slide", "floor", "jitter", "popping"))
+    assert report.failed == ()
+    if "idle" not in name:
+        arms = body.joints(("arms",))
+        np.testing.assert_allclose(out.rotations[:, arms], clip.rotations[:, arms], atol=1e-15)

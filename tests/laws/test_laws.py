@@ -44,9 +44,16 @@ CASES: Mapping[str, list[dict[str, Any]]] = {
         {"pose": "head_down"},
         {"pose": "arms_legs_in", "amount": 0.5, "method": "additive"},
     ],
+    "repair": [{}, {"what": ("limits", "floor")}],
     "resample": [{"fps": 40}],
     "tempo": [{"rate": 1.25}, {"rate": 0.8, "travel": "speed"}, {"rate": 1.5, "flight": "free"}],
-    "timing": [{"acceleration": 0.6}, {"acceleration": -0.8}, {"acceleration": 0.5, "limbs": ("head",)}],
+    "timing": [
+        {"acceleration": 0.6},
+        {"acceleration": -0.8},
+        {"acceleration": 0.5, "limbs": ("head",)},
+        {"acceleration": 0.8, "where": "impacts"},
+        {"acceleration": -0.8, "where": "impacts"},
+    ],
     "tremor": [{"amount": 3}, {"amount": 5, "low": 0.3, "high": 1, "seed": 7}],
     "trim": [{"end": 1.5}],
     "waveshape": [{"small": 0.3}, {"small": 1.8, "large": 0.6, "border": 15}, {"limit": 20}],
@@ -54,6 +61,7 @@ CASES: Mapping[str, list[dict[str, Any]]] = {
 # Edit without a neutral value -> parameters that leave the motion as it is, or why there are none.
 NEUTRAL: Mapping[str, dict[str, Any] | str] = {
     "foot_plant": {},
+    "repair": {},
     "mirror": "a mirror always swaps; twice is the motion again, which its own tests show",
     "resample": {},
     "trim": {},

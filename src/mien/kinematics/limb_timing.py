@@ -2,7 +2,8 @@
 
 A map of time says for every frame which frame, in fractions, of the same motion a limb shows there. Its
 joints share it, so the limb stays on its path. Maps come from the speed of the limb's end relative to the
-hips (Förger 2011, section 3.4.3), or from anywhere else: ``show`` takes them all.
+hips (Förger 2011, section 3.4.3), from the moments at which hands and feet meet something (section 5.2), or
+from anywhere else: ``show`` takes them all.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,17 +15,24 @@ import numpy as np
 from ..motion import Motion
 from ..rotations import quaternion
 from ..signal import time_map
+from ..signal.accents import accented
 from ..typing import Array
 from .body import Body
 from .bones import main_bones
 from .fk import world
 from .heading import heading_free, heading_rotation
+from .impacts import LONGEST, impacts
 from .loops import Boundary, period
 
 Limb = Literal["left_arm", "right_arm", "head", "left_leg", "right_leg"]
 Relative = Literal["position", "heading"]
 # The legs are left out: a foot that hurries or dwells slides.
 USUAL: tuple[Limb, ...] = ("left_arm", "right_arm", "head")
+# Heads meet nothing. Feet do, and in the air between they may hurry without sliding.
+MEETING: tuple[Limb, ...] = ("left_arm", "right_arm", "left_leg", "right_leg")
+# Seconds before an impact that are played faster: a foot has met the floor some hundredths of a second
+# before it stands.
+STRIKE = {"arm": 0.15, "leg": 0.2}
 # Slower than this is rest: leg lengths a second (5 cm/s), and a share of the limb's own fast speed.
 REST, REST_SHARE, FAST = 0.0575, 0.1, 95.0
 # A limb whose fast speed is below four times rest is idle: its minima are noise.
@@ -62,6 +70,41 @@ def limb_maps(
     return LimbMaps(_shown_frames(paths, motion, round_length, rule, REST * body.leg_length), round_length)
 
 
+def impact_maps(
+    motion: Motion,
+    body: Body,
+    pace: float,
+    *,
+    limbs: Sequence[str] = MEETING,
+    original: Motion | None = None,
+    longest: float | None = None,
+    round_length: int = 0,
+) -> LimbMaps:
+    """Return the maps of time of those ``limbs`` that meet something: they change nowhere else.
+
+    The last 0.15 s before each impact (0.2 s of feet) run up to ``pace`` times as fast, so that the stop is
+    up to ``pace^2`` times as hard; below 1 it is softer. What that gains or takes comes from the wind-up,
+    which lasts ``longest`` seconds at most (None: 0.9). Feet keep their contacts, which are those of the
+    ``original`` (None: the motion).
+    """
+    found = impacts(
+        motion,
+        body,
+        limbs=limbs,
+        original=original,
+        round_length=round_length,
+        longest=longest or LONGEST,
+    )
+    own = np.arange(len(motion), dtype=float)
+    out = {}
+    for limb, at in found.items():
+        # What a loop winds up for before it begins, it winds up for at its end.
+        every = np.concatenate([at + round_length, at]) if round_length else at
+        length = STRIKE[limb.partition("_")[2]] / motion.frame_time
+        out[limb] = accented(own, every, pace=pace, length=length)
+    return LimbMaps(out, round_length)
+
+
 def loop(motion: Motion, body: Body, *, boundary: Boundary = "auto") -> int:
     """Return the frames of one round of a motion, as its body turns but for the heading; 0 for no loop."""
     below = motion.skeleton.descendants(body.roles["hips"])
@@ -88,15 +131,19 @@ def tip_paths(
 
 
 def show(motion: Motion, body: Body, maps: LimbMaps) -> Motion:
-    """Return the motion with every limb at the frames that its map says, in between by slerp."""
+    """Return the motion with every limb at the frames that its map says, in between by slerp.
+
+    Where a map says the frame itself nothing changes, to the last bit.
+    """
     rotations, translations = np.array(motion.rotations), np.array(motion.translations)
     frames, wrap = maps.round_length or len(motion), maps.round_length > 0
     for name, at in maps.frames.items():
-        joints = body.joints((name,))
-        here, after, weight = time_map.between(at, frames, wrap=wrap)
+        joints, moved = body.joints((name,)), np.flatnonzero(at != np.arange(len(motion)))
+        here, after, weight = time_map.between(at[moved], frames, wrap=wrap)
         a, b = motion.rotations[:, joints], motion.translations[:, joints]
-        rotations[:, joints] = quaternion.slerp(a[here], a[after], weight[:, None])
-        translations[:, joints] = b[here] + weight[:, None, None] * (b[after] - b[here])
+        shown = np.ix_(moved, np.array(joints))
+        rotations[shown] = quaternion.slerp(a[here], a[after], weight[:, None])
+        translations[shown] = b[here] + weight[:, None, None] * (b[after] - b[here])
     return motion.with_(rotations=quaternion.continuous(rotations), translations=translations)
 
 
