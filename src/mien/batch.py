@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from .curve import Varying
-from .edits import pipeline
 from .emotion.files import format_recipe, read_provenance, sidecar_of
+from .emotion.resolve import done
 from .errors import FormatError, MienError, RecipeError, sentence
 from .formats import files, load, save
 from .kinematics.roles import known_roles
@@ -73,7 +73,7 @@ def edit_file(job: Job) -> Outcome:
         save(motion, job.target, force=job.force)
         if job.sidecar:
             files.write(sidecar_of(job.target), provenance(job, motion).encode())
-        notes = doubts(job, before)
+        notes = doubts(job, before, motion)
     except (MienError, OSError, MemoryError) as error:
         return Outcome(job, error=sentence(error))
     except Exception as error:
@@ -86,15 +86,19 @@ def edit_file(job: Job) -> Outcome:
 def edited(job: Job) -> tuple[Motion, Motion]:
     """Return the motion of a job as it is read and as it is edited, without writing it."""
     motion = opened(job.source, body=job.body, **job.read)
-    after = pipeline.apply(motion, job.recipe, strength=job.strength, parts=job.parts, span=job.span)
+    after = done(motion, job.recipe, strength=job.strength, parts=job.parts, span=job.span)
     return motion, after
 
 
-def doubts(job: Job, motion: Motion) -> tuple[str, ...]:
-    """Return what makes the result of a job doubtful: damage cut away, an odd rate, hips that jump."""
-    from .analysis.inspect import doubts as odd
+def doubts(job: Job, before: Motion, after: Motion) -> tuple[str, ...]:
+    """Return what makes the result of a job doubtful: damage cut away, an odd rate, hips that jump.
 
-    return (*_damage(job, motion), *odd(motion))
+    And what of the edit was taken back to keep the body whole.
+    """
+    from .analysis.inspect import doubts as odd
+    from .emotion.safe import mended
+
+    return (*_damage(job, before), *odd(before), *mended(after))
 
 
 def _damage(job: Job, motion: Motion) -> list[str]:

@@ -59,7 +59,10 @@ class Step:
 
 @dataclass(frozen=True)
 class Recipe:
-    """A named list of steps, with what it is for and where its numbers come from."""
+    """A named list of steps, with what it is for and where its numbers come from.
+
+    ``safe`` asks that what is done with it is checked, and mended where it breaks the body.
+    """
 
     name: str
     steps: tuple[Step, ...]
@@ -67,6 +70,7 @@ class Recipe:
     evidence: str = ""
     sources: Mapping[str, str] = field(default_factory=dict)
     version: int = VERSION
+    safe: bool = False
 
 
 def read_parts(parts: str | Iterable[str] | None) -> tuple[str, ...]:

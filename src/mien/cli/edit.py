@@ -45,6 +45,14 @@ FootPlant = Annotated[
         help="Put the feet back on the floor after pose edits (default: yes, or what --recipe says).",
     ),
 ]
+Safe = Annotated[
+    bool | None,
+    typer.Option(
+        "--safe/--no-safe",
+        help="Check the result, mend it, and take back what would break the body (default: yes for "
+        "emotions, or what --recipe says).",
+    ),
+]
 Sidecar = Annotated[
     bool,
     typer.Option("--sidecar/--no-sidecar", help="Write what was done beside each clip (OUTPUT.recipe.toml)."),
@@ -65,6 +73,7 @@ def edit(
     span: Span = "",
     ease: Ease = None,
     foot_plant: FootPlant = None,
+    safe: Safe = None,
     out: Out = None,
     force: a.Force = False,
     dry_run: a.DryRun = False,
@@ -90,10 +99,13 @@ def edit(
 
     mien edit "takes/*.bvh" --emotion tired --posture-head 10 -o tired/
     """
+    from dataclasses import replace
+
     from ..batch import Job
     from .inputs import STDOUT
 
     made = _recipe(emotion, recipe, flags, foot_plant)
+    made = made if safe is None else replace(made, safe=safe)
     whole = Job(
         Path(),
         Path(),
@@ -158,7 +170,7 @@ def _to_stdout(job: "Job", as_json: bool) -> None:
         before, after = edited(job)
     except MienError as error:
         raise MienError(located(job.source, str(error))) from None
-    for doubt in doubts(job, before):
+    for doubt in doubts(job, before, after):
         _doubt(job, doubt)
     typer.echo(bvh.render(after), nl=False)
 
@@ -273,7 +285,9 @@ def _plan(todo: "Sequence[Job]", as_json: bool) -> None:
             {"input": str(job.source), "output": str(job.target), "exists": exists}
             for job, exists in zip(todo, there, strict=True)
         ]
-        show_json({"dry_run": True, "files": files, "steps": [asdict(step) for step in steps]})
+        show_json(
+            {"dry_run": True, "files": files, "steps": [asdict(s) for s in steps], "safe": job.recipe.safe}
+        )
         return
     needs = "exists: will be replaced" if job.force else "exists: needs --force"
     for job, exists in zip(todo, there, strict=True):
@@ -282,6 +296,8 @@ def _plan(todo: "Sequence[Job]", as_json: bool) -> None:
         typer.echo(f"  {number}. {_described(step)}")
     if not steps:
         typer.echo("  nothing is changed")
+    elif job.recipe.safe:
+        typer.echo("  then what breaks the body is mended or taken back (--no-safe leaves that out)")
 
 
 def _described(step: "Step") -> str:

@@ -89,7 +89,7 @@ def grid(
         _write(job, square, target, posture)
     for file in engine:
         _write_engine_file(file, square, targets, posture)
-    notes = [located(clip, doubt) for doubt in doubts(jobs[0], square.motion)]
+    notes = [located(clip, doubt) for doubt in doubts(jobs[0], square.motion, square.motion)]
     for text in notes:
         note(f"mien: note: {text}")
     _report(clip, targets, engine, notes, as_json)

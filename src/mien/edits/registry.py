@@ -88,16 +88,19 @@ class Edit:
         original: Motion | None,
         joints: Sequence[int] | None,
     ) -> Motion:
-        """Run an edit with plain numbers, giving a repair the reference and carrying that along.
+        """Run an edit with plain numbers, giving it what it asks for and carrying the reference along.
 
         A still at the start of the capture, such as a T-pose, is no movement: poses are edited without it.
         """
         reference = motion.reference or motion
         if self.kind == "repair":
-            return self.run(motion, **values, original=original or reference).with_(reference=reference)
+            edited = reference.rotations is not motion.rotations  # an unedited clip is its own reference
+            before = original or (reference if edited else None)
+            return self.run(motion, **values, original=before).with_(reference=reference)
         still = lead_in(reference) if len(reference) == len(motion) else 0
-        only = {"joints": joints} if "joints" in self.asks else {}
-        after = self.run(without_lead_in(motion, still), **values, **only)
+        more: dict[str, Any] = {"joints": joints} if "joints" in self.asks else {}
+        more |= {"original": without_lead_in(reference, still)} if "original" in self.asks else {}
+        after = self.run(without_lead_in(motion, still), **values, **more)
         return with_lead_in(after, motion, still).with_(reference=reference)
 
     def _retimed(self, motion: Motion, values: Mapping[str, Any]) -> Motion:

@@ -71,13 +71,12 @@ def repair(
     are. A change that does not make its own measure better is left out. Raises ``MienError`` when the frames
     differ, ``BodyError`` where no body is found.
     """
-    original = original or motion
+    alone, original = original is None, original or motion
     if motion.rotations.shape != original.rotations.shape:
         raise MienError(
             f"repair: the original has {len(original)} frames of {len(original.skeleton)} joints, the edited "
             f"motion {len(motion)} of {len(motion.skeleton)}; both must be the same"
         )
-    alone = np.array_equal(motion.rotations, original.rotations)
     body = Body.of(original)
     mends = _mends(original, body)
     for name in what:

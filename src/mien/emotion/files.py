@@ -99,6 +99,7 @@ def parse_recipe(text: str, *, kind: Kind = "toml", where: str = "recipe") -> Re
         description=_is(where, "description", table.get("description", ""), str),
         evidence=_is(where, "evidence", table.get("evidence", ""), str),
         sources=sources,
+        safe=_is(where, "safe", table.get("safe", False), bool),
     )
 
 
@@ -111,6 +112,7 @@ def format_recipe(recipe: Recipe, *, kind: Kind = "toml", provenance: Mapping[st
     for key in ("description", "evidence"):
         if getattr(recipe, key):
             head[key] = getattr(recipe, key)
+    head |= {"safe": True} if recipe.safe else {}
     tables = {"sources": dict(recipe.sources), "provenance": dict(provenance or {})}
     head |= {name: table for name, table in tables.items() if table}
     steps = [_plain_step(step) for step in recipe.steps]

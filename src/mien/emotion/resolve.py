@@ -45,6 +45,7 @@ def edit(
     parts: Parts = (),
     span: Span = None,
     foot_plant: bool = True,
+    safe: bool | None = None,
 ) -> Motion:
     """Return ``motion`` edited by an emotion word, a recipe file, a recipe or a list of steps.
 
@@ -52,19 +53,36 @@ def edit(
     ``(seconds, value)`` such as ``[(0, 1), (5, 0)]``; ``parts``
     (``"head,arms"`` or ``("head", "arms")``) and ``span`` (start and end in seconds) limit what is changed;
     the feet are put back over the whole clip, where the recipe does so; not with ``foot_plant=False``.
+    ``safe`` checks what was done and mends it where the body would break (``mien.emotion.safe``); None does
+    so where the recipe asks for it, as presets do.
     Raises ``MienError`` for what is no motion, ``RecipeError`` for what is unknown or out of range.
     """
     require_motion(motion)
     recipe = resolve(what)
     if not foot_plant:
         recipe = replace(recipe, steps=tuple(step for step in recipe.steps if step.edit != "foot_plant"))
-    return apply(motion, recipe, strength=strength, parts=parts, span=span)
+    recipe = recipe if safe is None else replace(recipe, safe=safe)
+    return done(motion, recipe, strength=strength, parts=parts, span=span)
+
+
+def done(
+    motion: Motion, recipe: Recipe, *, strength: Strength = 1.0, parts: Parts = (), span: Span = None
+) -> Motion:
+    """Return ``motion`` after a recipe, and safe if it asks for that; arguments as in ``edit``."""
+    after = apply(motion, recipe, strength=strength, parts=parts, span=span)
+    if not recipe.safe:
+        return after
+    from .safe import safe
+
+    return safe(after)
 
 
 def apply(
     motion: Motion, recipe: Steps, *, strength: Strength = 1.0, parts: Parts = (), span: Span = None
 ) -> Motion:
     """Return ``motion`` after a recipe, a step or a list of steps; one more step of history for each done.
+
+    Those steps and no others are done: that a recipe asks to be ``safe`` is a matter of ``edit``.
 
     ``strength``, ``parts``, ``span`` and errors are as in ``edit``. Of steps that edit the pose only what
     lies within ``parts`` and ``span`` is done; repairs see the whole clip.

@@ -14,7 +14,7 @@ from .joint_limits import JOINTS, NAMES, JointAngles, plain, range_of
 from .poses import neutral_world
 
 # A positive turn about the body's left swings a limb back and the trunk forward.
-FORWARD: Mapping[str, float] = {"chest": 1.0, "head": 1.0, "knee": 1.0}
+FORWARD: Mapping[str, float] = {"chest": 1.0, "head": 1.0}
 BEND_BACK = 1.75  # radians that a hinge may seem bent the wrong way; beyond, it is bent too far the right way
 CLEAR_BEND = 0.3  # sine of the bend from which a hinge's plane is plain to see
 
@@ -101,7 +101,6 @@ class Joints:
             straight = quaternion.multiply(quaternion.exp(-bend[:, None] * axis), seen[:, hinge.row])
             twist = quaternion.log(quaternion.twist(straight, self.body.up)) @ self.body.up
             out[:, hinge.row] = self.signs[hinge.row] * np.stack([bend, aside, twist], axis=-1)
-            out[:, hinge.row, 0] = bend
         return out
 
 
@@ -129,7 +128,8 @@ def _base(name: str, body: Body) -> int:
 
 def _signs(name: str) -> tuple[float, float, float]:
     side = -1.0 if name.startswith("right") else 1.0
-    return FORWARD.get(plain(name), -1.0), side, side
+    # A hinge's axis says which way it bends.
+    return 1.0 if range_of(name).hinge else FORWARD.get(plain(name), -1.0), side, side
 
 
 def _bones(name: str, body: Body, points: Array) -> tuple[Array, Array]:

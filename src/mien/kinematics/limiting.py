@@ -13,7 +13,7 @@ from .solver import Limit
 
 SOFT = 2.0  # degrees beyond what is allowed that an excess without end comes to
 CALM = 0.04  # seconds over which the change is smoothed
-ROUNDS = 8  # as what is smoothed gets smaller, and some is left
+ROUNDS = 12  # as what is smoothed gets smaller, and some is left
 RAISED = 20.0  # degrees below OVERHEAD in which the limits of swing and twist fade
 
 
@@ -26,7 +26,8 @@ def limited(motion: Motion, body: Body, allowed: Array) -> Motion:
     joints = Joints.of(motion, body)
     allowed = np.broadcast_to(allowed, (len(motion), len(joints.names)))
     rotations, parents = np.array(motion.rotations), motion.skeleton.parents
-    for _ in range(ROUNDS):
+    # What many smooth changes leave is little, and is taken as it is.
+    for sigma in (*[CALM / motion.frame_time] * ROUNDS, 0.0):
         seen = joints.seen(_turned(rotations, joints, parents))
         back = _back(seen, joints, joints.axes(seen), allowed)
         wrong = joints.joints[back.any(axis=(0, 2))]
@@ -34,9 +35,7 @@ def limited(motion: Motion, body: Body, allowed: Array) -> Motion:
             break
         turned = quaternion.multiply(rotations[:, joints.joints], quaternion.exp(back))
         rotations[:, joints.joints] = turned
-        rotations[:, wrong] = calm_change(
-            motion.rotations[:, wrong], rotations[:, wrong], sigma=CALM / motion.frame_time
-        )
+        rotations[:, wrong] = calm_change(motion.rotations[:, wrong], rotations[:, wrong], sigma=sigma)
     return motion.with_(rotations=quaternion.continuous(rotations))
 
 

@@ -26,13 +26,13 @@ AROUND = 0.1  # seconds in which the rate of a flight goes over to that of the s
 def frames_at(rates: Array) -> Array:
     """Return the frames of the source, in fractions (M,), that are shown one frame time after the other.
 
-    ``rates`` (T,) at the frames of the source. The time shown up to a frame is the integral of ``1 / rate``;
-    the last moment shown is the last that a whole frame fits.
+    ``rates`` (T,) at the frames of the source. The time shown up to a frame is the integral of ``1 / rate``.
+    It is stretched to whole frames, so that first and last are shown and a loop stays one.
     """
     slow = 1.0 / rates
     shown = np.concatenate([[0.0], np.cumsum(0.5 * (slow[1:] + slow[:-1]))])
-    count = int(np.floor(shown[-1] + 1e-6)) + 1
-    return np.interp(np.arange(count), shown, np.arange(len(rates)))
+    last = max(round(float(shown[-1])), 1)
+    return np.interp(np.arange(last + 1), shown * (last / shown[-1]), np.arange(len(rates)))
 
 
 def of_length(rates: Array) -> Array:

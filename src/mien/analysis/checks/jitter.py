@@ -1,8 +1,10 @@
 """Whether the movement trembles.
 
-The jerk (third derivative of place) of head, hands, feet and hips below 20 Hz, root mean square over a third
-of a second; hands, feet and head as seen from the hips. Beside it the share of their movement above 12.5 Hz,
-where bodies hardly move (Förger 2011, section 3.4.1).
+How far head, hands, feet and hips go to and fro faster than 8 Hz, root mean square over a third of a second;
+hands, feet and head as seen from the hips. Long and quick movement has little of it, shaking is all of it,
+and millimetres are what an eye sees. Beside it the jerk (third derivative of place), which grows with the
+cube of the pace, and the share of movement above 12.5 Hz, where bodies hardly move (Förger 2011, section
+3.4.1).
 """
 
 import numpy as np
@@ -14,27 +16,35 @@ from .check import Check, Measured
 from .scene import Scene
 
 WINDOW = 0.33  # seconds
+TREMBLE = 0.0234  # seconds: a Gaussian of half amplitude at 8 Hz
 SMOOTHING = 0.0094  # seconds: half amplitude at 20 Hz, as files with few digits shake faster than that
 HIGH = 12.5  # Hz
 
 
 def measure(scene: Scene) -> Measured:
-    """Return the jerk of each point (T, P), in m/s3."""
+    """Return how far each point trembles (T, P), in millimetres."""
     names, places = scene.tips
     places = places * scene.body.metres_per_unit
     seen = np.concatenate([places[:, :1], places[:, 1:] - places[:, :1]], axis=1)
-    return Measured(
-        _jerk(seen, scene.motion.frame_time), names, {"share above 12.5 Hz": high_share(seen, scene)}
-    )
+    dt = scene.motion.frame_time
+    fast = seen - smooth(seen, sigma=TREMBLE / dt)
+    facts = {"jerk, mean m/s3": float(_jerk(seen, dt).mean()), "share above 12.5 Hz": high_share(seen, scene)}
+    return Measured(1000.0 * _running(fast, dt), names, facts)
 
 
 def _jerk(places: Array, dt: float) -> Array:
-    from scipy.ndimage import uniform_filter1d
-
+    """Return the jerk of each point (T, P), root mean square over ``WINDOW``."""
     if len(places) < 4:
         return np.zeros(places.shape[:2])
     jerk = np.diff(smooth(places, sigma=SMOOTHING / dt), n=3, axis=0) / dt**3
-    square = np.pad(np.einsum("tpi,tpi->tp", jerk, jerk), ((1, 2), (0, 0)), mode="edge")
+    return _running(np.pad(jerk, ((1, 2), (0, 0), (0, 0)), mode="edge"), dt)
+
+
+def _running(vectors: Array, dt: float) -> Array:
+    """Return the length of vectors (T, P, 3), root mean square over ``WINDOW`` (T, P)."""
+    from scipy.ndimage import uniform_filter1d
+
+    square = np.einsum("tpi,tpi->tp", vectors, vectors)
     mean = uniform_filter1d(square, max(1, round(WINDOW / dt)), axis=0, mode="nearest")
     return np.sqrt(np.maximum(mean, 0.0))  # its running sum may round to below zero
 
@@ -53,5 +63,13 @@ def high_share(places: Array, scene: Scene) -> float:
 
 
 CHECK = Check(
-    "jitter", "jerk", "m/s3", 0, limit=7000.0, tolerance=10.0, factor=2.0, overall=True, measure=measure
+    "jitter",
+    "trembling above 8 Hz",
+    "mm",
+    1,
+    limit=20.0,
+    tolerance=1.0,
+    factor=2.0,
+    overall=True,
+    measure=measure,
 )

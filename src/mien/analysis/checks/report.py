@@ -135,21 +135,33 @@ def check(motion: Motion, *, against: Motion | None = None, only: Sequence[str] 
     return compare_scenes(Scene.of(motion, source=before), before, only=only)
 
 
-def compare_scenes(scene: Scene, source: Scene | None, *, only: Sequence[str] = ()) -> Report:
-    """Return the report of a scene and that of its source."""
+def measured(source: Scene) -> dict[str, Measured]:
+    """Return what every check measures of a source, to compare several edits with."""
+    return {name: check.measure(source) for name, check in CHECKS.items()}
+
+
+def compare_scenes(
+    scene: Scene,
+    source: Scene | None,
+    *,
+    only: Sequence[str] = (),
+    known: Mapping[str, Measured] | None = None,
+) -> Report:
+    """Return the report of a scene and that of its source, which ``known`` says if it was ``measured``."""
     wanted = [c for name, c in CHECKS.items() if not only or name in only]
     wanted = [c for c in wanted if source is not None or not c.needs_source]
-    findings = tuple(_find(c, scene, source) for c in wanted)
+    if source is not None and known is None:
+        known = {c.name: c.measure(source) for c in wanted}
+    findings = tuple(_find(c, scene, known[c.name] if known else None) for c in wanted)
     return Report(scene.motion.name, scene.times, findings, source is not None)
 
 
-def _find(check: Check, scene: Scene, source: Scene | None) -> Finding:
+def _find(check: Check, scene: Scene, before: Measured | None) -> Finding:
     found = check.measure(scene)
-    before = check.measure(source) if source is not None else None
     allowed = np.broadcast_to(check.allowed(before, scene), found.values.shape)
     over = check.excess(found, before, scene)
     bad = over > 0.0
-    too_often = bad.any(axis=1).mean() > (check.share if source is None and not check.overall else 0.0)
+    too_often = bad.any(axis=1).mean() > (check.share if before is None and not check.overall else 0.0)
     shown = np.broadcast_to(found.values.mean(axis=0), over.shape) if check.overall else found.values
     # What stands in the table: where it is most too much, or where there is most if nothing is too much.
     score = np.where(bad, shown - allowed, -np.inf) if bad.any() else shown

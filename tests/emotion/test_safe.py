@@ -1,0 +1,115 @@
+"""An edit that cannot break a body: what passes is left alone, what breaks is mended or taken back, in time."""
+
+import numpy as np
+import pytest
+
+import mien
+from mien import samples
+from mien.emotion.safe import limbs_of, mended, safe
+from mien.kinematics.body import Body
+from mien.motion import Motion
+from mien.recipe import Recipe, Step
+
+
+def same(one: Motion, other: Motion) -> bool:
+    return one.rotations.tobytes() == other.rotations.tobytes() and (
+        one.translations.tobytes() == other.translations.tobytes()
+    )
+
+
+def test_what_passes_comes_back_as_it_is() -> None:
+    walk = samples.walk(seconds=3.0).motion
+    edited = mien.edit(walk, "sad", safe=False)
+    assert mien.check(edited).passed, "or this test shows nothing"
+    assert safe(edited) is edited
+    assert mended(edited) == ()
+    assert safe(walk) is walk
+
+
+@pytest.mark.parametrize("name", ["afraid", "angry", "feminine", "nervous", "weak", "s0/angry", "s0/excited"])
+@pytest.mark.parametrize("sample", ["walk", "punch", "wave", "jump"])
+def test_no_check_fails_afterwards(sample: str, name: str) -> None:
+    source = samples.SAMPLES[sample]().motion
+    made = mien.edit(source, name)
+    assert mien.check(made).failed == ()
+    assert made.fps == source.fps
+
+
+def test_some_of_those_fail_without_it() -> None:
+    for sample, name, check in (("walk", "feminine", "collision"), ("walk", "s0/angry", "jitter")):
+        source = samples.SAMPLES[sample]().motion
+        assert check in mien.check(mien.edit(source, name, safe=False)).failed
+
+
+@pytest.mark.parametrize("name", ["feminine", "s0/angry"])
+def test_its_history_replays_to_the_same_bytes(name: str) -> None:
+    walk = samples.walk(seconds=3.0).motion
+    made = mien.edit(walk, name)
+    assert {"repair", "restore"} & {step.edit for step in made.history}
+    assert same(mien.apply(walk, made.history), made)
+
+
+def broken_for_a_while(source: Motion) -> Motion:
+    """The left elbow goes through the back for half a second in the middle."""
+    step = Step(
+        "displacement", {"keys": "1.5 none | 1.8 left_elbow 70 0 0 | 2.0 left_elbow 70 0 0 | 2.3 none"}
+    )
+    return mien.apply(source, [step])
+
+
+def test_only_the_limb_and_the_time_are_touched() -> None:
+    still = samples.still(seconds=4.0).motion
+    broken = broken_for_a_while(still)
+    assert mien.check(broken).failed
+    made = safe(broken)
+    assert mien.check(made).failed == ()
+    arm = set(Body.of(still).joints(("left_arm",)))
+    others = [j for j in range(len(still.skeleton)) if j not in arm]
+    np.testing.assert_array_equal(made.rotations[:, others], broken.rotations[:, others])
+    np.testing.assert_array_equal(made.rotations[:40], broken.rotations[:40])
+    np.testing.assert_array_equal(made.rotations[-40:], broken.rotations[-40:])
+
+
+def test_it_says_what_was_taken_back() -> None:
+    made = mien.edit(samples.walk(seconds=3.0).motion, "s0/angry")
+    (said, *_) = mended(made)
+    assert "arm" in said
+    assert "% of the original between" in said
+    assert "jitter" in said
+
+
+def test_a_recipe_asks_for_it_and_who_calls_may_refuse() -> None:
+    walk = samples.walk(seconds=3.0).motion
+    steps = mien.preset("feminine").steps
+    bare = mien.apply(walk, steps)
+    assert same(mien.edit(walk, Recipe("mine", steps)), bare)
+    assert same(mien.edit(walk, "feminine", safe=False), bare)
+    made = mien.edit(walk, Recipe("mine", steps, safe=True))
+    assert same(made, mien.edit(walk, "feminine"))
+    assert same(made, mien.edit(walk, list(steps), safe=True))
+    assert not same(made, bare)
+
+
+def test_without_feet_put_back_they_may_slide() -> None:
+    """Who does not want the feet put back gets no foot_plant, and no edit taken back because of them."""
+    walk = samples.walk(seconds=3.0).motion
+    made = mien.edit(walk, [Step("path_length", {"mid": 0.5})], safe=True)
+    assert "foot_plant" not in {step.edit for step in made.history}
+    assert "foot_slide" in mien.check(made).failed
+
+
+@pytest.mark.parametrize(
+    ("part", "limbs"),
+    [
+        ("left_hand", {"left_arm"}),
+        ("right_forearm-left_chest", {"right_arm"}),
+        ("left_hand-right_hand", {"left_arm", "right_arm"}),
+        ("left_foot-right_shank", {"torso", "left_leg", "right_leg"}),
+        ("head", {"head"}),
+        ("right_knee", {"torso", "left_leg", "right_leg"}),
+        ("whole_body", {"torso", "left_leg", "right_leg"}),
+        ("place", {"head", "torso", "left_arm", "right_arm", "left_leg", "right_leg"}),
+    ],
+)
+def test_parts_of_checks_belong_to_limbs(part: str, limbs: set[str]) -> None:
+    assert set(limbs_of(part)) == limbs
