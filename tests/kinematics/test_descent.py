@@ -45,7 +45,7 @@ def asked(motion: Motion, by: float, limit=None, kinds: str = "plain") -> tuple[
 
 
 def moved(motion: Motion, q: np.ndarray) -> np.ndarray:
-    """Points (F, 2, 3) after joints turn by ``q`` (7, 3) in world axes, and the root moves by its last row."""
+    """Joints (F, 7, 3) after they turn by ``q`` (8, 3) in world axes; the root moves by its last row."""
     rotations, translations = motion.rotations.copy(), motion.translations.copy()
     world = fk(rotations, translations, PARENTS)[0]
     for j, p in enumerate(PARENTS):

@@ -92,6 +92,17 @@ def check(constraint: Constraint, name: str, *, frames: int, joints: int) -> Non
                 f"{what}: the offset of a point must have the shape (3,), or ({frames}, 3) for the frames of "
                 f"the clip; got {np.shape(point.offset)}"
             )
+        require_finite(np.atleast_2d(point.offset), f"{what}: the offset of a point")
+
+
+def require_finite(rows: Array, what: str) -> None:
+    """Raise ``MienError`` if rows over frames hold what is not a number; ``what`` says whose they are."""
+    bad = np.flatnonzero(~np.isfinite(rows).all(axis=1))
+    if len(bad):
+        raise MienError(
+            f"{what} is not a finite number in {len(bad)} of {len(rows)} frames, first in frame {bad[0]}; "
+            "fill such gaps first"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,6 +194,17 @@ class SamePosition:
         place = np.array(x)
         for inside in self._inside(np.arange(len(x))):
             place[inside] = x[inside].mean(axis=0)
+        return replace(self, place=place)
+
+    def pulled(self, away: Array, pulling: Mask) -> Self:
+        """Return the constraint with its places moved to where ``pulling`` frames (T,) are held from them.
+
+        What holds a frame ``away`` (T, 3) has drawn it about half-way: the place goes twice as far.
+        """
+        place = np.array(np.broadcast_to(np.asarray(self.place), away.shape))
+        for inside in self._inside(np.arange(len(away))):
+            if (inside & pulling).any():
+                place[inside] += 2.0 * away[inside & pulling].mean(axis=0)
         return replace(self, place=place)
 
     def _inside(self, frames: Integers) -> Iterator[Mask]:

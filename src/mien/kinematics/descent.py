@@ -45,14 +45,20 @@ class Look(NamedTuple):
     worst: Array
 
 
-def look(asked: Task, state: State, frames: Integers) -> Look:
-    """Return where everything is in a state of some frames of the clip, and what is still wrong."""
+def stand(asked: Task, state: State, frames: Integers) -> tuple[Array, Array, Array]:
+    """Return ``world``, ``at`` and ``places`` of a ``Look`` at a state of some frames of the clip."""
     world, at = fk_rows(*state, asked.link.above, range(len(asked.link.above)))
     places = at[asked.link.holders]
     if asked.arms is not None:
         arms = asked.arms if asked.arms.shape[-1] == 1 else asked.arms[..., frames]
         turned = np.moveaxis(world[asked.link.holders], 1, -1)
         places += np.moveaxis(quaternion.rotate(turned, np.moveaxis(arms, 1, -1)), -1, 1)
+    return world, at, places
+
+
+def look(asked: Task, state: State, frames: Integers) -> Look:
+    """Return where everything is in a state of some frames of the clip, and what is still wrong."""
+    world, at, places = stand(asked, state, frames)
     found = [
         _beyond(c, error, of_frames(goal, frames)).T
         for c, error, goal in zip(asked.constraints, errors(asked, places, frames), asked.goals, strict=True)

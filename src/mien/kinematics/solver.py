@@ -15,16 +15,17 @@ from ..rotations import quaternion
 from ..signal.bridging import smooth
 from ..typing import Array, Integers, Mask
 from .constraints import Constraint, check
-from .descent import Look, descend, look
+from .descent import descend, look, stand
 from .linkage import Linkage
 from .task import Limit as Limit  # solve asks for it
-from .task import State, Task, held, holds, task, with_goals
+from .task import State, Task, held, holds, pulled, task, with_goals
 
 CHUNK = 512  # frames worked on together, fewer where there are many points
 LARGEST = 2**21  # numbers in the matrices of a chunk
 STRIDE = 8  # every so manieth frame is solved first
 CLOSER = 0.25  # what was found around a frame is its start if it leaves less than so much of |e|^2
-ROUNDS = 3  # of smoothing, or of finding the place where a point stays
+SMOOTHINGS = 3  # rounds of solving, with smoothing between them
+SETTLINGS = 8  # rounds in which a place is looked for where a point can stay
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,15 +67,13 @@ def solve(
     asked, start = task(
         motion, constraints, size=size, ease=ease, travel=travel, limit=limit, tolerance=tolerance
     )
-    asked = with_goals(asked, _places(asked, start))
-    found = start
-    for number in range(ROUNDS):
-        if number and smoothing > 0.0:
+    places = _places(asked, start)
+    asked = with_goals(asked, places)
+    settled, found = held(asked, places), start
+    for number in range(SMOOTHINGS if smoothing > 0.0 else 1):
+        if number:
             found = _smoothed(asked, start, found, smoothing / motion.frame_time)
-        found = _met(_held(asked, found), found)
-        residual = _seen(_held(asked, found), found)[1]
-        if smoothing <= 0.0 and (residual.max() <= asked.tolerance or not holds(asked)):
-            break
+        settled, found, residual = _settled(asked, settled, found)
     return Solved(_written(motion, asked.link, found), residual)
 
 
@@ -93,9 +92,19 @@ def _require(motion: Motion, ease: Mapping[int, float], **numbers: float) -> Non
             raise MienError(f"the ease of {names[joint]} must be 0 or more, got {value}")
 
 
-def _held(asked: Task, state: State) -> Task:
-    """Return the task with a place for every point that is to stay where it is."""
-    return held(asked, _places(asked, state)) if holds(asked) else asked
+def _settled(asked: Task, settled: Task, state: State) -> tuple[Task, State, Array]:
+    """Return the task with the places found at which points stay, the state, and what is left (T,)."""
+    state = _met(settled, state)
+    best = settled, state, _seen(settled, state)[1]
+    for _ in range(SETTLINGS if holds(asked) else 0):
+        if best[2].max() <= asked.tolerance:
+            break
+        settled = pulled(asked, settled, _places(settled, state))
+        state = _met(settled, state)
+        left = _seen(settled, state)[1]
+        if left.max() < best[2].max():
+            best = settled, state, left
+    return best
 
 
 def _met(asked: Task, state: State) -> State:
@@ -168,27 +177,24 @@ def _chunks(asked: Task, frames: int) -> Iterator[slice]:
     yield from (slice(first, first + step) for first in range(0, frames, step))
 
 
-def _looks(asked: Task, state: State, frames: Integers | None) -> Iterator[Look]:
-    """Yield looks at a state of some frames of the clip, or of all, chunk by chunk."""
-    every = np.arange(state[0].shape[-1]) if frames is None else frames
-    yield from (look(asked, _take(state, some), every[some]) for some in _chunks(asked, len(every)))
-
-
 def _seen(asked: Task, state: State, frames: Integers | None = None) -> tuple[Array, Array]:
-    """Return the sum of the squares of all errors (F,) and the largest error (F,) of each frame."""
-    looks = [(seen.cost, seen.worst) for seen in _looks(asked, state, frames)]
-    cost, worst = zip(*looks, strict=True)
-    return np.concatenate(cost), np.concatenate(worst)
+    """Return the sum of the squares of all errors and the largest error (F,) of some frames, or of all."""
+    every = np.arange(state[0].shape[-1]) if frames is None else frames
+    looks = [look(asked, _take(state, some), every[some]) for some in _chunks(asked, len(every))]
+    return np.concatenate([seen.cost for seen in looks]), np.concatenate([seen.worst for seen in looks])
 
 
 def _places(asked: Task, state: State) -> Array:
     """Return where the points are (K, 3, T)."""
-    return np.concatenate([seen.places for seen in _looks(asked, state, None)], axis=-1)
+    every = np.arange(state[0].shape[-1])
+    parts = [stand(asked, _take(state, some), every[some])[2] for some in _chunks(asked, len(every))]
+    return np.concatenate(parts, axis=-1)
 
 
 def _written(motion: Motion, link: Linkage, state: State) -> Motion:
     """Return the motion with the joints of a linkage as they are in a state."""
     rotations, translations = np.array(motion.rotations), np.array(motion.translations)
-    rotations[:, link.joints] = quaternion.continuous(np.moveaxis(state[0], -1, 0))
-    translations[:, link.joints] = np.moveaxis(state[1], -1, 0)
+    turned, moved = np.flatnonzero(link.ease[:, 0]), np.flatnonzero(link.travel)
+    rotations[:, link.joints[turned]] = quaternion.continuous(np.moveaxis(state[0][turned], -1, 0))
+    translations[:, link.joints[moved]] = np.moveaxis(state[1][moved], -1, 0)
     return motion.with_(rotations=rotations, translations=translations)

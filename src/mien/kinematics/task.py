@@ -5,10 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import MienError
 from ..motion import Motion
 from ..typing import Array, Integers
-from .constraints import ALL, Constraint, Point, SamePosition
+from .constraints import ALL, Constraint, Point, SamePosition, require_finite
 from .linkage import Linkage, line, linkage
 
 LOOSE = 0.01  # sizes: a joint whose translation leaves its offset further than that is not held by a bone
@@ -118,14 +117,10 @@ def with_goals(asked: Task, places: Array) -> Task:
 
     ``MienError`` if one is not a number: before any work is done.
     """
-    found = errors(asked, places, np.arange(places.shape[-1]))
+    with np.errstate(invalid="ignore", over="ignore"):
+        found = errors(asked, places, np.arange(places.shape[-1]))
     for number, (c, error) in enumerate(zip(asked.constraints, found, strict=True)):
-        bad = np.flatnonzero(~np.isfinite(error).all(axis=1))
-        if len(bad):
-            raise MienError(
-                f"constraint {number} ({type(c).__name__}) asks for what is not a finite number in "
-                f"{len(bad)} of {len(error)} frames, first in frame {bad[0]}; fill such gaps before"
-            )
+        require_finite(error, f"what constraint {number} ({type(c).__name__}) asks for")
     if all(c.share is ALL for c in asked.constraints):
         return asked
     goals = [(1.0 - c.share)[:, None] * e for c, e in zip(asked.constraints, found, strict=True)]
@@ -134,13 +129,27 @@ def with_goals(asked: Task, places: Array) -> Task:
 
 def holds(asked: Task) -> bool:
     """Say whether a point is asked to stay, wherever that is."""
-    return any(isinstance(c, SamePosition) for c in asked.constraints)
+    return any(isinstance(c, SamePosition) and c.place is None for c in asked.constraints)
 
 
 def held(asked: Task, places: Array) -> Task:
-    """Return the task in which points that are to stay do so at the middle of where they are, ``places``."""
+    """Return the task in which points that are to stay somewhere do so in the middle of where they are."""
     fixed = [
-        c.held(places[part.start].T - goal) if isinstance(c, SamePosition) else c
-        for c, part, goal in zip(asked.constraints, asked.parts, asked.goals, strict=True)
+        c.held(places[part.start].T) if isinstance(c, SamePosition) else c
+        for c, part in zip(asked.constraints, asked.parts, strict=True)
     ]
     return replace(asked, constraints=fixed)
+
+
+def pulled(asked: Task, found: Task, places: Array) -> Task:
+    """Return the task ``found`` with points that are to stay somewhere at better places.
+
+    Of ``found``, which ``held`` made of ``asked``, is left what ``places`` (K, 3, T) show.
+    """
+    moved, frames = list(found.constraints), np.arange(places.shape[-1])
+    for number, error in enumerate(errors(found, places, frames)):
+        before, now = asked.constraints[number], moved[number]
+        if isinstance(before, SamePosition) and isinstance(now, SamePosition) and before.place is None:
+            away = error - found.goals[number]
+            moved[number] = now.pulled(away, np.sqrt((away**2).sum(axis=1)) > found.tolerance)
+    return replace(found, constraints=moved)
