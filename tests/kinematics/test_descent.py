@@ -85,7 +85,7 @@ def test_a_step_is_that_of_damped_least_squares_over_all_joints(kinds: str, monk
     error = errors(np.zeros((8, 3)))
     expected = np.zeros((FRAMES, 24))
     for f in range(FRAMES):
-        damping = 0.5 * DAMPING * (error[f] @ error[f]) + LEAST_DAMPING * 1.5**2
+        damping = DAMPING * (error[f] @ error[f]) + LEAST_DAMPING * 1.5**2
         j = jacobian[f][:, free]
         normal = j.T @ j + damping * np.diag(1.0 / ease.ravel()[free])
         expected[f, free] = np.linalg.solve(normal, -j.T @ error[f])

@@ -2,11 +2,11 @@
 
 With ``J`` the change of all errors ``e`` with the turns, and ``M`` how easily each joint turns, a step is
 
-    M J' (J M J' + d 1)^-1 (-e),        d = 0.1 c |e|^2 + 1e-6 size^2
+    M J' (J M J' + d 1)^-1 (-e),        d = c |e|^2 / 2 + 1e-6 size^2
 
 (Wampler 1986). Damping that follows the square of the errors (Sugihara 2011) is careful far away and beside
 targets that nothing reaches, and lets go where a few Newton steps remain. Caution ``c`` halves after a step
-that helped and grows after one that did not. The state with the least ``|e|^2`` is kept.
+that helped and grows after one that did not; a step that leads further away is not taken.
 """
 
 from dataclasses import replace
@@ -15,16 +15,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ..rotations import quaternion
-from ..typing import Array, Integers
+from ..typing import Array, Integers, Mask
 from .constraints import AtPosition, Constraint, of_frames
 from .fk import fk_rows
 from .linkage import Linkage, response, turns
-from .task import State, Task, errors
+from .task import Rows, State, Task, errors, put, take
 
 ITERATIONS = 24
 # A step helps if it leaves less than so much of |e|^2; after so many that do not, a frame is given up.
-BETTER, PATIENCE = 0.95, 4
-DAMPING, LEAST_DAMPING = 0.1, 1e-6  # of |e|^2, of the square size
+BETTER, PATIENCE = 0.99, 3
+DAMPING, LEAST_DAMPING = 0.5, 1e-6  # of |e|^2, of the square size
 LONGEST_TURN = 0.6  # radians a step
 HELD = 1e-9  # one less the cosine of half the angle that a limit takes from a turn
 
@@ -47,7 +47,7 @@ class Look(NamedTuple):
 
 def stand(asked: Task, state: State, frames: Integers) -> tuple[Array, Array, Array]:
     """Return ``world``, ``at`` and ``places`` of a ``Look`` at a state of some frames of the clip."""
-    world, at = fk_rows(*state, asked.link.above, range(len(asked.link.above)))
+    world, at = fk_rows(state[0], state[1], asked.link.above, range(len(asked.link.above)))
     places = at[asked.link.holders]
     if asked.arms is not None:
         arms = asked.arms if asked.arms.shape[-1] == 1 else asked.arms[..., frames]
@@ -77,31 +77,34 @@ def _beyond(constraint: Constraint, error: Array, goal: Array) -> Array:
 
 
 def descend(asked: Task, state: State, frames: Integers) -> State:
-    """Return the best state found for some frames, from ``state``; what is done takes no further steps."""
+    """Return the nearest state found for some frames, from ``state``; what is done takes no further steps."""
     if asked.limit is not None:
         state = (asked.limit(state[0], frames), state[1])
-    best = (np.array(state[0]), np.array(state[1]))
+    out, seen = (np.array(state[0]), np.array(state[1])), look(asked, state, frames)
     here: Integers = np.arange(len(frames))  # where the frames that are still going stand among all
-    least, idle, caution = np.full(len(frames), np.inf), np.zeros(len(frames)), np.ones(len(frames))
-    free: Array = np.ones((len(state[0]), 1 if asked.limit is None else len(frames)))
-    for steps_left in range(ITERATIONS, -1, -1):
-        seen = look(asked, state, frames[here])
-        done, helped = seen.worst <= asked.tolerance, seen.cost < BETTER * least[here]
-        idle[here] = np.where(helped, 0.0, idle[here] + 1.0)
-        caution[here] *= np.where(helped, 0.5, 4.0)
-        kept = done | (seen.cost < least[here])
-        least[here[kept]] = seen.cost[kept]
-        for rows, new in zip(best, state, strict=True):
-            rows[..., here[kept]] = new[..., kept]
-        going = ~done & (idle[here] < PATIENCE)
-        if not steps_left or not going.any():
-            break
+    idle, caution = np.zeros(len(frames)), np.ones(len(frames))
+    free: Array = np.ones((len(state[0]), len(frames)))
+    for _ in range(ITERATIONS):
+        going = (seen.worst > asked.tolerance) & (idle < PATIENCE)
         if not going.all():
-            here, state = here[going], (state[0][..., going], state[1][..., going])
-            seen = Look(*(rows[..., going] for rows in seen))
-            free = free[:, going] if asked.limit is not None else free
-        state, free = _step(asked, state, seen, frames[here], caution[here], free)
-    return best
+            put(out, here[~going], take(state, ~going))
+            here, idle, caution = here[going], idle[going], caution[going]
+            state, seen, free = take(state, going), Look(*take(seen, going)), free[:, going]
+        if not len(here):
+            break
+        tried, free = _step(asked, state, seen, frames[here], caution, free)
+        found = look(asked, tried, frames[here])
+        helped = found.cost < BETTER * seen.cost
+        idle, caution = np.where(helped, 0.0, idle + 1.0), caution * np.where(helped, 0.5, 4.0)
+        nearer = (found.cost < seen.cost) | (found.worst <= asked.tolerance)
+        state, seen = _chosen(nearer, tried, state), Look(*_chosen(nearer, found, seen))
+    put(out, here, state)
+    return out
+
+
+def _chosen(better: Mask, new: Rows, old: Rows) -> Rows:
+    """Return the ``new`` rows in the frames in which they are better, and else the old."""
+    return new if better.all() else tuple(np.where(better, a, b) for a, b in zip(new, old, strict=True))
 
 
 def _step(

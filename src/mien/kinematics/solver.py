@@ -13,12 +13,12 @@ from ..errors import MienError
 from ..motion import Motion
 from ..rotations import quaternion
 from ..signal.bridging import smooth
-from ..typing import Array, Integers, Mask
+from ..typing import Array, Integers
 from .constraints import Constraint, check
 from .descent import descend, look, stand
 from .linkage import Linkage
 from .task import Limit as Limit  # solve asks for it
-from .task import State, Task, held, holds, pulled, task, with_goals
+from .task import State, Task, held, holds, pulled, put, take, task, with_goals
 
 CHUNK = 512  # frames worked on together, fewer where there are many points
 LARGEST = 2**21  # numbers in the matrices of a chunk
@@ -117,7 +117,7 @@ def _met(asked: Task, state: State) -> State:
     if len(rest) and len(keys) > 1:
         between = _carried(state, out, keys, rest)
         closer = _seen(asked, between, rest)[0] < CLOSER * cost[rest]
-        _put(out, rest[closer], _take(between, closer))
+        put(out, rest[closer], take(between, closer))
     _descend(asked, out, rest)
     return out
 
@@ -125,7 +125,7 @@ def _met(asked: Task, state: State) -> State:
 def _descend(asked: Task, state: State, frames: Integers) -> None:
     """In place: solve some frames."""
     for some in _chunks(asked, len(frames)):
-        _put(state, frames[some], descend(asked, _take(state, frames[some]), frames[some]))
+        put(state, frames[some], descend(asked, take(state, frames[some]), frames[some]))
 
 
 def _carried(start: State, found: State, keys: Integers, rest: Integers) -> State:
@@ -133,9 +133,9 @@ def _carried(start: State, found: State, keys: Integers, rest: Integers) -> Stat
     later = np.clip(np.searchsorted(keys, rest), 1, len(keys) - 1)
     a, b = keys[later - 1], keys[later]
     share = np.clip((rest - a) / (b - a), 0.0, 1.0)
-    turned, moved = _change(_take(start, keys), _take(found, keys))
+    turned, moved = _change(take(start, keys), take(found, keys))
     turned, moved = (c[later - 1] + share[:, None, None] * (c[later] - c[later - 1]) for c in (turned, moved))
-    return _changed(_take(start, rest), turned, moved)
+    return _changed(take(start, rest), turned, moved)
 
 
 def _smoothed(asked: Task, start: State, found: State, frames: float) -> State:
@@ -145,7 +145,7 @@ def _smoothed(asked: Task, start: State, found: State, frames: float) -> State:
     if asked.limit is not None:
         out = (asked.limit(out[0], np.arange(len(turned))), out[1])
     still = np.all([np.abs(c).max(axis=(1, 2)) < 1e-12 for c in (turned, moved / asked.size)], axis=0)
-    _put(out, np.flatnonzero(still), _take(start, still))
+    put(out, np.flatnonzero(still), take(start, still))
     return out
 
 
@@ -162,15 +162,6 @@ def _changed(start: State, turned: Array, moved: Array) -> State:
     return np.moveaxis(after, 0, -1), start[1] + np.moveaxis(moved, 0, -1)
 
 
-def _take(state: State, frames: Integers | Mask | slice) -> State:
-    return state[0][..., frames], state[1][..., frames]
-
-
-def _put(state: State, frames: Integers, new: State) -> None:
-    for rows, values in zip(state, new, strict=True):
-        rows[..., frames] = values
-
-
 def _chunks(asked: Task, frames: int) -> Iterator[slice]:
     """Yield parts of a number of frames that are worked on together."""
     step = max(1, min(CHUNK, LARGEST // (3 * len(asked.link.holders)) ** 2))
@@ -180,14 +171,14 @@ def _chunks(asked: Task, frames: int) -> Iterator[slice]:
 def _seen(asked: Task, state: State, frames: Integers | None = None) -> tuple[Array, Array]:
     """Return the sum of the squares of all errors and the largest error (F,) of some frames, or of all."""
     every = np.arange(state[0].shape[-1]) if frames is None else frames
-    looks = [look(asked, _take(state, some), every[some]) for some in _chunks(asked, len(every))]
+    looks = [look(asked, take(state, some), every[some]) for some in _chunks(asked, len(every))]
     return np.concatenate([seen.cost for seen in looks]), np.concatenate([seen.worst for seen in looks])
 
 
 def _places(asked: Task, state: State) -> Array:
     """Return where the points are (K, 3, T)."""
     every = np.arange(state[0].shape[-1])
-    parts = [stand(asked, _take(state, some), every[some])[2] for some in _chunks(asked, len(every))]
+    parts = [stand(asked, take(state, some), every[some])[2] for some in _chunks(asked, len(every))]
     return np.concatenate(parts, axis=-1)
 
 

@@ -6,13 +6,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..motion import Motion
-from ..typing import Array, Integers
+from ..typing import Array, Integers, Mask
 from .constraints import ALL, Constraint, Point, SamePosition, require_finite
 from .linkage import Linkage, line, linkage
 
 LOOSE = 0.01  # sizes: a joint whose translation leaves its offset further than that is not held by a bone
 
-State = tuple[Array, Array]  # local rotations (N, 4, F) and translations (N, 3, F) of a linkage's joints
+Rows = tuple[Array, ...]  # over frames
+State = Rows  # local rotations (N, 4, F) and translations (N, 3, F) of a linkage's joints
 Limit = Callable[[Array, Integers], Array]  # local rotations (J, 4, F) at some frames -> those allowed
 
 
@@ -104,6 +105,17 @@ def _allowed(limit: Limit, link: Linkage, every: Array) -> Limit:
         return out
 
     return allowed
+
+
+def take(rows: Rows, frames: Integers | Mask | slice) -> Rows:
+    """Return some frames of rows over frames."""
+    return tuple(row[..., frames] for row in rows)
+
+
+def put(rows: Rows, frames: Integers, new: Rows) -> None:
+    """In place: set some frames of rows over frames."""
+    for row, values in zip(rows, new, strict=True):
+        row[..., frames] = values
 
 
 def errors(asked: Task, places: Array, frames: Integers) -> list[Array]:
