@@ -36,11 +36,12 @@ class Point(NamedTuple):
 class Constraint(Protocol):
     """What the solver asks of a constraint on K points that gives m numbers.
 
-    ``places`` (F, K, 3) are the points at the ``frames`` (F,) of the clip. ``share`` (T,) or (1,) is how much
-    of the error that is there at first is to vanish, in [0, 1].
+    ``places`` (F, K, 3) are the points at the ``frames`` (F,) of the clip.
     """
 
-    share: Array
+    @property
+    def share(self) -> Array:
+        """How much of the error that is there at first is to vanish (T,) or (1,)."""
 
     @property
     def bound(self) -> bool:

@@ -23,7 +23,8 @@ from .task import Rows, State, Task, errors, put, take
 
 ITERATIONS = 24
 # A step helps if it leaves less than so much of |e|^2; after so many that do not, a frame is given up.
-BETTER, PATIENCE = 0.99, 3
+BETTER, PATIENCE = 0.99, 4
+LESS, MORE = 0.5, 8.0  # caution after a step that helped, and after one that did not
 DAMPING, LEAST_DAMPING = 0.5, 1e-6  # of |e|^2, of the square size
 LONGEST_TURN = 0.6  # radians a step
 HELD = 1e-9  # one less the cosine of half the angle that a limit takes from a turn
@@ -95,7 +96,7 @@ def descend(asked: Task, state: State, frames: Integers) -> State:
         tried, free = _step(asked, state, seen, frames[here], caution, free)
         found = look(asked, tried, frames[here])
         helped = found.cost < BETTER * seen.cost
-        idle, caution = np.where(helped, 0.0, idle + 1.0), caution * np.where(helped, 0.5, 4.0)
+        idle, caution = np.where(helped, 0.0, idle + 1.0), caution * np.where(helped, LESS, MORE)
         nearer = (found.cost < seen.cost) | (found.worst <= asked.tolerance)
         state, seen = _chosen(nearer, tried, state), Look(*_chosen(nearer, found, seen))
     put(out, here, state)
