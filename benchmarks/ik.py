@@ -10,7 +10,7 @@ one goes in the motion that the targets are from. Ours takes the whole clip at o
 poses. mink goes frame by frame, from the pose found before ("follows") or from the clip's pose as ours does.
 One thread for both.
 
-mink is not needed: without it our rows are printed alone. To have it: pip install "mink>=1,<2"
+mink is not needed: without it our rows are printed alone. To have it: pip install "mink>=1.3,<2"
 """
 
 import argparse
@@ -223,7 +223,7 @@ def main():
     parser.add_argument("--alone", action="store_true", help="without mink")
     options = parser.parse_args()
     if not mink and not options.alone:
-        print('mink is not installed, so ours stands alone; to compare: pip install "mink>=1,<2"')
+        print('mink is not installed, so ours stands alone; to compare: pip install "mink>=1.3,<2"')
     heads = ("ms", "ratio", "steps", "mean", "max", "over %", "move", "asked")
     print(f"{'':<36}" + "".join(f"{head:>9}" for head in heads))
     for case in CASES:

@@ -44,12 +44,12 @@ class Constraint(Protocol):
         """How much of the error that is there at first is to vanish (T,) or (1,)."""
 
     @property
-    def bound(self) -> bool:
-        """Whether it asks for no more than to stay on one side, so that the error is zero beyond."""
-
-    @property
     def points(self) -> tuple[Point, ...]:
         """The points that it is about."""
+
+    @property
+    def bound(self) -> bool:
+        """Whether it asks for no more than to stay on one side, so that the error is zero beyond."""
 
     def error(self, places: Array, frames: Integers) -> Array:
         """Return how far from what is asked the points are (F, m)."""
