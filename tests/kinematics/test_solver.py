@@ -8,6 +8,7 @@ from scipy.optimize import least_squares
 
 from mien import samples
 from mien.errors import MienError
+from mien.kinematics import solver
 from mien.kinematics.body import Body
 from mien.kinematics.constraints import (
     AtDistance,
@@ -282,6 +283,26 @@ def test_out_of_reach_the_pose_is_about_the_nearest(walk: Motion, stretch: float
         assert np.sum((done[f] - goal)[joints] ** 2) < 1.05 * 2.0 * best.cost
 
 
+@pytest.mark.parametrize("away", [20.0, 100.0, 1000.0])
+def test_one_hand_out_of_reach_does_not_hold_back_the_rest(walk: Motion, away: float) -> None:
+    body = Body.of(walk)
+    start, r = world(walk)[1], body.roles
+    others = {r["left_wrist"]: 5.0, r["left_ankle"]: 2.0, r["right_ankle"]: 0.0}
+    asked = [AtPosition(Point(j), start[:, j] + rise * body.up) for j, rise in others.items()]
+    high = start[:, r["right_shoulder"]] + (60.0 + away) * body.up
+    limbs = [r[f"{side}_{j}"] for side in ("left", "right") for j in ("shoulder", "elbow", "hip", "knee")]
+    done = solve(
+        walk,
+        [*asked, AtPosition(Point(r["right_wrist"]), high)],
+        size=body.leg_length,
+        ease=dict.fromkeys(limbs, 1.0),
+    )
+    at = world(done.motion)[1]
+    left = [np.linalg.norm(at[:, c.point.joint] - c.target, axis=1) for c in asked]
+    assert np.max(left, axis=0).mean() < 0.2  # centimetres
+    assert ((at[:, r["right_wrist"]] - at[:, r["right_shoulder"]]) @ body.up).min() > 40.0  # stretched out
+
+
 def test_an_arm_that_alone_has_ease_takes_the_body_along_in_one_piece(walk: Motion) -> None:
     """What travels is the body: moving the shoulder in place would stretch the bone above it."""
     body = Body.of(walk)
@@ -540,3 +561,14 @@ def test_long_clips_are_solved_like_their_parts(walk: Motion, monkeypatch) -> No
     one = reach(walk, goals).motion
     monkeypatch.setattr("mien.kinematics.solver.LARGEST", 7 * 24**2)
     assert reach(walk, goals).motion.rotations.tobytes() == one.rotations.tobytes()
+
+
+def test_no_place_to_stay_is_looked_for_if_another_thing_is_out_of_reach(walk: Motion, monkeypatch) -> None:
+    body, rounds, met = Body.of(walk), [], solver._met
+    monkeypatch.setattr(solver, "_met", lambda *args: rounds.append(1) or met(*args))
+    left, right = (body.roles[f"{side}_wrist"] for side in ("left", "right"))
+    far = AtPosition(Point(right), world(walk)[1][:, right] + 500.0 * body.up)
+    arms = [body.roles[f"{side}_{r}"] for side in ("left", "right") for r in ("shoulder", "elbow")]
+    asked = [SamePosition(Point(left), ((20, 26),)), far]
+    solve(walk, asked, size=body.leg_length, ease=dict.fromkeys(arms, 1.0))
+    assert len(rounds) == 1

@@ -5,8 +5,9 @@ With ``J`` the change of all errors ``e`` with the turns, and ``M`` how easily e
     M J' (J M J' + d 1)^-1 (-e),        d = c |e|^2 / 2 + 1e-6 size^2
 
 (Wampler 1986). Damping that follows the square of the errors (Sugihara 2011) is careful far away and beside
-targets that nothing reaches, and lets go where a few Newton steps remain. Caution ``c`` halves after a step
-that helped and grows after one that did not; a step that leads further away is not taken.
+targets that nothing reaches, and lets go where a few Newton steps remain; in it, no error counts as more than
+a fifth of ``size``. Caution ``c`` halves after a step that helped and grows after one that did not; a step
+that leads further away is not taken.
 """
 
 from dataclasses import replace
@@ -22,20 +23,21 @@ from .linkage import Linkage, response, turns
 from .task import Rows, State, Task, errors, put, take
 
 ITERATIONS = 24
+FAR = 0.2  # sizes: an error beyond counts as no more, or one hand out of reach would hold back all else
 # A step helps if it leaves less than so much of |e|^2; after so many that do not, a frame is given up.
 BETTER, PATIENCE = 0.99, 4
-LESS, MORE = 0.5, 8.0  # caution after a step that helped, and after one that did not
+LESS, MORE = 0.5, 8.0  # of caution after a step that helped, and after one that did not
 DAMPING, LEAST_DAMPING = 0.5, 1e-6  # of |e|^2, of the square size
 LONGEST_TURN = 0.6  # radians a step
-HELD = 1e-9  # one less the cosine of half the angle that a limit takes from a turn
+HELD = 1e-9  # one minus the cosine of half the angle that a limit takes from a turn
 
 
 class Look(NamedTuple):
     """A state seen from outside.
 
     ``world`` rotations (N, 4, F) and places ``at`` (N, 3, F) of the joints, ``places`` of the points
-    (K, 3, F), ``errors`` (M, F), the sum of their squares ``cost`` (F,), and the largest error of a
-    constraint, ``worst`` (F,).
+    (K, 3, F), ``errors`` (M, F), the sum of their squares ``cost`` (F,), the same with no constraint counted
+    as more than ``FAR`` away, ``near`` (F,), and the largest error of a constraint, ``worst`` (F,).
     """
 
     world: Array
@@ -43,6 +45,7 @@ class Look(NamedTuple):
     places: Array
     errors: Array
     cost: Array
+    near: Array
     worst: Array
 
 
@@ -64,10 +67,10 @@ def look(asked: Task, state: State, frames: Integers) -> Look:
         _beyond(c, error, of_frames(goal, frames)).T
         for c, error, goal in zip(asked.constraints, errors(asked, places, frames), asked.goals, strict=True)
     ]
-    squares = [np.einsum("mf,mf->f", e, e) for e in found]
-    return Look(
-        world, at, places, np.concatenate(found), np.sum(squares, axis=0), np.sqrt(np.max(squares, axis=0))
-    )
+    squares = np.stack([np.einsum("mf,mf->f", e, e) for e in found])
+    near = np.minimum(squares, (FAR * asked.size) ** 2)
+    sums = squares.sum(axis=0), near.sum(axis=0), np.sqrt(squares.max(axis=0))
+    return Look(world, at, places, np.concatenate(found), *sums)
 
 
 def _beyond(constraint: Constraint, error: Array, goal: Array) -> Array:
@@ -95,9 +98,9 @@ def descend(asked: Task, state: State, frames: Integers) -> State:
             break
         tried, free = _step(asked, state, seen, frames[here], caution, free)
         found = look(asked, tried, frames[here])
-        helped = found.cost < BETTER * seen.cost
-        idle, caution = np.where(helped, 0.0, idle + 1.0), caution * np.where(helped, LESS, MORE)
         nearer = (found.cost < seen.cost) | (found.worst <= asked.tolerance)
+        helped = nearer & ((found.cost < BETTER * seen.cost) | (found.near < BETTER * seen.near))
+        idle, caution = np.where(helped, 0.0, idle + 1.0), caution * np.where(helped, LESS, MORE)
         state, seen = _chosen(nearer, tried, state), Look(*_chosen(nearer, found, seen))
     put(out, here, state)
     return out
@@ -134,7 +137,7 @@ def _forces(asked: Task, link: Linkage, seen: Look, frames: Integers, caution: A
         jacobian = _jacobian(asked, seen, frames)
         matrix = jacobian @ matrix @ np.swapaxes(jacobian, 1, 2)
     count = np.arange(len(seen.errors))
-    damping = DAMPING * caution * seen.cost + LEAST_DAMPING * asked.size**2
+    damping = DAMPING * caution * seen.near + LEAST_DAMPING * asked.size**2
     matrix[:, count, count] += damping[:, None]
     forces = np.linalg.solve(matrix, -seen.errors.T[..., None])
     pushes = forces if plain else np.swapaxes(jacobian, 1, 2) @ forces

@@ -97,13 +97,14 @@ def _settled(asked: Task, settled: Task, state: State) -> tuple[Task, State, Arr
     state = _met(settled, state)
     best = settled, state, _seen(settled, state)[1]
     for _ in range(SETTLINGS if holds(asked) else 0):
-        if best[2].max() <= asked.tolerance:
+        moved = pulled(asked, best[0], _places(best[0], best[1]))
+        if moved is best[0]:
             break
-        settled = pulled(asked, settled, _places(settled, state))
-        state = _met(settled, state)
-        left = _seen(settled, state)[1]
-        if left.max() < best[2].max():
-            best = settled, state, left
+        state = _met(moved, best[1])
+        left = _seen(moved, state)[1]
+        if left.max() >= best[2].max():
+            break
+        best = moved, state, left
     return best
 
 

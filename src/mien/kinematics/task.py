@@ -154,14 +154,16 @@ def held(asked: Task, places: Array) -> Task:
 
 
 def pulled(asked: Task, found: Task, places: Array) -> Task:
-    """Return the task ``found`` with points that are to stay somewhere at better places.
+    """Return the task ``found``, which ``held`` made of ``asked``, with better places for points to stay at.
 
-    Of ``found``, which ``held`` made of ``asked``, is left what ``places`` (K, 3, T) show.
+    ``places`` (K, 3, T) are where the points came to. Where none was held away, it is ``found`` itself.
     """
     moved, frames = list(found.constraints), np.arange(places.shape[-1])
     for number, error in enumerate(errors(found, places, frames)):
         before, now = asked.constraints[number], moved[number]
         if isinstance(before, SamePosition) and isinstance(now, SamePosition) and before.place is None:
             away = error - found.goals[number]
-            moved[number] = now.pulled(away, np.sqrt((away**2).sum(axis=1)) > found.tolerance)
-    return replace(found, constraints=moved)
+            pulling = np.sqrt((away**2).sum(axis=1)) > found.tolerance
+            moved[number] = now.pulled(away, pulling) if pulling.any() else now
+    same = all(a is b for a, b in zip(moved, found.constraints, strict=True))
+    return found if same else replace(found, constraints=moved)
