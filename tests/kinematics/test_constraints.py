@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mien.errors import MienError
 from mien.kinematics.constraints import (
     AtDistance,
     AtPosition,
@@ -13,6 +14,7 @@ from mien.kinematics.constraints import (
     ParameterRange,
     Point,
     SamePosition,
+    check,
 )
 
 A, B, C = Point(0), Point(1), Point(2)
@@ -96,3 +98,78 @@ def test_what_is_asked_may_change_from_frame_to_frame() -> None:
     targets = np.arange(60.0).reshape(20, 3)
     c = AtPosition(A, targets)
     np.testing.assert_array_equal(c.error(np.zeros((2, 1, 3)), np.array([4, 7])), -targets[[4, 7]])
+
+
+def test_a_place_may_be_given_where_a_point_stays() -> None:
+    given = SamePosition(A, ((5, 15),), place=X)
+    x = places(given)
+    found = given.error(x, np.arange(20))
+    np.testing.assert_allclose(found[5:15], (x[:, 0] - X)[5:15])
+    assert not found[:5].any()
+    assert not found[15:].any()
+    assert given.held(x[:, 0]) is given
+
+
+def test_without_spans_nothing_has_to_stay() -> None:
+    nothing = SamePosition(A, ())
+    assert not nothing.error(places(nothing), np.arange(20)).any()
+    assert not nothing.jacobian(places(nothing), np.arange(20)).any()
+
+
+def test_bounds_are_known_as_such() -> None:
+    bounds = [name for name, c in ALL.items() if c.bound]
+    assert bounds == ["in region", "at least", "at most", "angle above", "angle below"]
+
+
+def test_where_there_is_no_direction_there_is_no_slope() -> None:
+    """Points at one place: one over their distance would be infinite."""
+    c = Orientation(A, B, UNIT, 0.7)
+    same = np.ones((4, 2, 3))
+    same[1:, 0] += np.array([1e-15, 1e-12, 1e-3])[:, None]
+    found = c.jacobian(same, np.arange(4))
+    assert not found[:3].any()
+    assert np.abs(found[3]).max() > 100.0
+
+
+def test_three_points_in_line_can_be_bent_either_way() -> None:
+    """The angle is at its largest, so any way across is a way down: at the rate that bending has."""
+    c = ParameterRange(A, B, C, 0.0, 2.0, 1.0)
+    line = np.array([[[-1.0, -2.0, -2.0], [0.0, 0.0, 0.0], [2.0, 4.0, 4.0]]])
+    slope = c.jacobian(line, np.arange(1))[0, 0]
+    np.testing.assert_allclose(np.linalg.norm(slope, axis=1), [1 / 3, 1 / 3 + 1 / 6, 1 / 6], rtol=1e-12)
+    np.testing.assert_allclose(slope @ [1.0, 2.0, 2.0], 0.0, atol=1e-12)
+    moved = line - 0.3 * slope
+    assert c.error(moved, np.arange(1))[0, 0] < c.error(line, np.arange(1))[0, 0]
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        (AtPosition(A, np.zeros((7, 3))), r"target must have the shape \(1, 3\), or \(20, 3\).*\(7, 3\)"),
+        (AtPosition(A, np.zeros(3)), "target"),
+        (AtPosition(A, np.zeros((1, 3)), np.ones(3)), "share must have the shape"),
+        (AtPosition(A, np.zeros((1, 3)), np.array([1.5])), "share must be from 0 to 1"),
+        (AtPosition(A, np.zeros((1, 3)), np.array([np.nan])), "share must be from 0 to 1"),
+        (InRegion(A, UNIT[0], np.zeros((1, 1))), "level"),
+        (AtDistance(A, B, np.zeros(21)), "distance"),
+        (Orientation(A, B, np.zeros((20, 2)), 1.0), "direction"),
+        (OnPath(A, B, np.zeros((19, 3))), "offset"),
+        (SamePosition(A, (), place=np.zeros((19, 3))), "place"),
+        (AtPosition(Point(5), X), r"no joint 5.*0 to 4"),
+        (AtPosition(Point(-1), X), "no joint -1"),
+        (AtPosition(Point(0, np.zeros((7, 3))), X), "offset of a point"),
+    ],
+)
+def test_what_does_not_fit_the_clip_is_refused(made: Constraint, said: str) -> None:
+    with pytest.raises(MienError, match="^wrist .*" + said):
+        check(made, "wrist", frames=20, joints=5)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_what_fits_is_let_through(name: str) -> None:
+    check(ALL[name], name, frames=20, joints=3)
+
+
+def test_there_are_three_ways_to_ask_for_a_distance() -> None:
+    with pytest.raises(MienError, match="did you mean 'least'"):
+        AtDistance(A, B, np.ones(1), "leest")
