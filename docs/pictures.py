@@ -121,6 +121,21 @@ def tempo() -> "Image":
     return render.compare(rows, against=walk(), poses=9, views=["side"])
 
 
+def repair() -> "Image":
+    """Show forearms inside the belly, and pushed out of it."""
+    calm = samples.still(seconds=3.0).motion
+    pose = "left_elbow -80 0 0; left_shoulder 0 -65 0; right_elbow -70 0 0; right_shoulder 0 60 0"
+    broken = mien.apply(calm, [Step("displacement", {"keys": f"0 none | 1 {pose} | 2 {pose} | 3 none"})])
+    return render.compare({"broken": broken, "mended": mien.apply(broken, [Step("repair")])}, poses=7)
+
+
+def restore() -> "Image":
+    """Show a sad walk whose head is restored for a second."""
+    sad = mien.edit(walk(), "sad", safe=False)
+    up = Step("restore", {"amount": ((0.5, 0.0), (0.8, 1.0), (1.6, 1.0), (1.9, 0.0))}, parts=("head",))
+    return render.compare({"sad": sad, "head restored": mien.apply(sad, [up])}, poses=8, views=["side"])
+
+
 def grid() -> "Image":
     """Show two strokes of a wave at the corners of the square and in its centre."""
     strokes = Step("trim", {"start": 1.2, "end": 2.4})
@@ -233,7 +248,7 @@ def below(*images: "Image") -> "Image":
 PICTURES: Mapping[str, Callable[[], "Image"]] = {
     **{f"methods/{f.__name__}": f for f in (waveshape, nervous, tempo, displacement, tremor)},
     **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, impacts, grid, foot_plant)},
-    **{f"methods/{f.__name__}": f for f in (trim, resample, mirror, in_place)},
+    **{f"methods/{f.__name__}": f for f in (repair, restore, trim, resample, mirror, in_place)},
     "presets": presets,
     "grid": square,
     "blend": blend,

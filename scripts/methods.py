@@ -35,6 +35,7 @@ SHOWN = {
     "displacement": {"keys": "0.5 none | 1 head 25 0 0 | 2 none"},
     "tremor": {"amount": 2.0},
     "nervous": {"paths": 0.8, "rhythm": 0.15},
+    "restore": {"amount": 0.5},
     "tempo": {"rate": 1.2, "travel": "speed"},
 }
 

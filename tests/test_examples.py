@@ -38,5 +38,5 @@ def test_an_example_takes_a_clip_of_ones_own(tmp_path: Path) -> None:
     run(EXAMPLES[0], tmp_path / "mine.bvh", tmp_path)
     mine, edited = mien.load(tmp_path / "mine.bvh"), mien.load(tmp_path / "01_walk_sad.bvh")
     assert edited.skeleton.names == mine.skeleton.names
-    assert len(edited) == len(mine)
-    assert np.abs(edited.rotations - mine.rotations).max() > 0.05
+    assert len(edited) == pytest.approx(len(mine) / 0.84, abs=1)  # at four fifths of the tempo of sad
+    assert np.abs(edited.rotations[: len(mine)] - mine.rotations).max() > 0.05

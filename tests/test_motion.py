@@ -184,7 +184,7 @@ def test_what_is_shown_is_one_short_line() -> None:
     edited = mien.edit(walk.motion, "sad")
     assert repr(motion(frames=1)) == "Motion(1 frame, 5 joints, 2 fps, 0.00 s)"
     assert repr(walk.motion) == "Motion('walk', 31 frames, 22 joints, 30 fps, 1.00 s)"
-    assert repr(edited).endswith(f"1.00 s, {len(edited.history)} steps)")
+    assert repr(edited).endswith(f"{edited.duration:.2f} s, {len(edited.history)} steps)")
     assert repr(skeleton()) == "Skeleton(5 joints: hips to right)"
     shown = [
         walk,

@@ -10,6 +10,7 @@ from mien.errors import MienError
 from mien.kinematics.body import Body
 from mien.kinematics.contacts import detect, slides
 from mien.kinematics.fk import world
+from mien.kinematics.legs import Placed, over_feet, shifted
 from mien.motion import Motion
 from mien.recipe import Step
 from mien.rotations import quaternion
@@ -19,10 +20,6 @@ STEP = Step("repair")
 
 def failing(motion: Motion, source: Motion) -> set[str]:
     return set(mien.check(motion, against=source).failed)
-
-
-def edited(motion: Motion, **posture: float) -> Motion:
-    return mien.apply(motion, [Step("posture", posture), Step("foot_plant")])
 
 
 def turned(
@@ -41,12 +38,10 @@ def turned(
     return motion.with_(rotations=rotations)
 
 
-def hugging(motion: Motion) -> Motion:
-    """Put both forearms into the belly for three seconds."""
-    for side, way in (("left", -1.0), ("right", 1.0)):
-        motion = turned(motion, f"{side}_elbow", -60.0, start=30, stop=210)
-        motion = turned(motion, f"{side}_shoulder", 70.0 * way, start=30, stop=210, about="up")
-    return motion
+def into_the_belly(motion: Motion) -> Motion:
+    """Put the left forearm into the belly for three seconds."""
+    motion = turned(motion, "left_elbow", -75.0, start=30, stop=210)
+    return turned(motion, "left_shoulder", -55.0, start=30, stop=210, about="up")
 
 
 @pytest.mark.parametrize("name", ["walk", "turn", "jump", "still", "wave", "punch"])
@@ -58,14 +53,14 @@ def test_an_unedited_clip_comes_back_unchanged(name: str) -> None:
 @pytest.mark.parametrize("skeleton", samples.SKELETONS)
 def test_arms_are_pushed_out_of_the_body(skeleton: str) -> None:
     still = samples.still(seconds=4.0, skeleton=skeleton).motion
-    broken = hugging(still)
+    broken = into_the_belly(still)
     assert failing(broken, still) == {"collision"}
     mended = repair(broken, original=still)
     assert failing(mended, still) == set()
     body = Body.of(still)
-    arms = set(body.joints(("arms",)))
+    arms = set(body.joints(("left_arm",)))
     others = [j for j in range(len(still.skeleton)) if j not in arms]
-    np.testing.assert_array_equal(mended.rotations[:, others], broken.rotations[:, others])
+    np.testing.assert_allclose(mended.rotations[:, others], broken.rotations[:, others], atol=1e-12)
     np.testing.assert_array_equal(mended.translations, broken.translations)
     moved = np.linalg.norm(world(mended)[1] - world(broken)[1], axis=-1).max() / body.leg_length
     assert moved < 0.2, "pushed out, not thrown out"
@@ -88,11 +83,15 @@ def test_a_joint_beyond_its_limits_is_turned_back_there_and_then(role: str, degr
 
 
 def test_hands_are_lifted_off_the_floor() -> None:
-    still = samples.still(seconds=3.0).motion
-    broken = turned(
-        turned(still, "chest", 110.0, start=40, stop=140), "left_shoulder", -60, start=40, stop=140
-    )
+    """Bent over from the hips, and lowered, so that the hanging hands are in the floor for a while."""
+    still = samples.still(seconds=4.0).motion
     body = Body.of(still)
+    broken = still
+    for role, degrees in (("hips", 100.0), ("left_shoulder", -95.0), ("right_shoulder", -95.0)):
+        broken = turned(broken, role, degrees, start=40, stop=200)
+    pose = Placed.of(broken, body)
+    share = np.clip(np.sin(np.pi * (np.arange(len(still)) - 40) / 160), 0.0, None)
+    broken = shifted(pose, -0.5 * body.leg_length * share[:, None] * body.up, body).motion
     below = [j for s in ("left", "right") for j in still.skeleton.descendants(body.roles[f"{s}_elbow"])]
 
     def lowest(motion: Motion) -> float:
@@ -101,19 +100,22 @@ def test_hands_are_lifted_off_the_floor() -> None:
     assert lowest(broken) < -0.05
     mended = repair(broken, original=still, what=("floor",))
     assert lowest(mended) > -0.008
-    np.testing.assert_array_equal(mended.rotations[:20], broken.rotations[:20])
-    assert "popping" not in failing(mended, still)
+    np.testing.assert_array_equal(mended.rotations[:30], broken.rotations[:30])
+    jumps = [mien.check(m, against=still)["popping"].value for m in (broken, mended)]
+    assert jumps[1] < jumps[0] + 0.5
 
 
 @pytest.mark.parametrize("skeleton", samples.SKELETONS)
-def test_who_leans_too_far_is_put_over_the_feet(skeleton: str) -> None:
-    still = samples.still(seconds=3.0, skeleton=skeleton, unit="m").motion
-    broken = edited(still, trunk=25, lean=7)
-    assert "balance" in failing(broken, still)
-    mended = mien.apply(broken, [STEP])
-    assert failing(mended, still) == set()
+def test_who_would_fall_is_put_over_the_feet(skeleton: str) -> None:
+    still = samples.still(seconds=4.0, skeleton=skeleton, unit="m").motion
     body = Body.of(still)
     contacts = detect(still, body=body)
+    share = np.sin(np.pi * np.arange(len(still)) / len(still)) ** 2
+    away = 0.43 * body.leg_length * share[:, None] * body.forward
+    broken = over_feet(Placed.of(still, body), away, contacts.feet, body)
+    assert "balance" in failing(broken, still)
+    mended = repair(broken, original=still)
+    assert "balance" not in failing(mended, still)
     assert slides(mended, contacts, body).max() < slides(still, contacts, body).max() + 0.001
 
 
@@ -129,16 +131,19 @@ def test_what_is_mended_is_never_worse(name: str) -> None:
 
 
 def test_a_clip_by_itself_is_judged_by_what_bodies_do() -> None:
-    still = samples.still(seconds=2.0).motion
-    broken = edited(still, arms=-16, arms_forward=10, elbows=80).with_(history=(), reference=None)
-    assert mien.check(broken)["collision"].value > 6.0
-    assert mien.check(repair(broken)).findings
-    assert mien.check(repair(broken).with_(reference=None))["collision"].value < 5.0
+    broken = turned(
+        into_the_belly(samples.still(seconds=4.0).motion), "left_shoulder", 20.0, start=30, stop=210
+    )
+    assert mien.check(broken)["collision"].value > 8.0
+    mended = repair(broken).with_(history=(), reference=None)
+    assert mien.check(mended)["collision"].value < 4.5
+    alone = mien.apply(broken, [STEP])
+    np.testing.assert_array_equal(alone.rotations, mended.rotations)
 
 
 def test_only_what_is_asked_for_is_mended() -> None:
-    still = samples.still(seconds=2.0).motion
-    broken = edited(still, arms=-14, arms_forward=10, elbows=80)
+    still = samples.still(seconds=4.0).motion
+    broken = into_the_belly(still)
     same = repair(broken, original=still, what=("limits", "floor", "balance"))
     np.testing.assert_array_equal(same.rotations, broken.rotations)
 

@@ -1,4 +1,4 @@
-"""An edit that cannot break a body: what passes is left alone, what breaks is mended or taken back, in time."""
+"""An edit that cannot break a body: what passes is left alone, what breaks is mended or taken back."""
 
 import numpy as np
 import pytest
@@ -50,11 +50,10 @@ def test_its_history_replays_to_the_same_bytes(name: str) -> None:
 
 
 def broken_for_a_while(source: Motion) -> Motion:
-    """The left elbow goes through the back for half a second in the middle."""
-    step = Step(
-        "displacement", {"keys": "1.5 none | 1.8 left_elbow 70 0 0 | 2.0 left_elbow 70 0 0 | 2.3 none"}
-    )
-    return mien.apply(source, [step])
+    """The left forearm goes into the belly for half a second in the middle."""
+    pose = "left_elbow -90 0 0; left_shoulder 0 -60 0"
+    keys = f"1.3 none | 1.8 {pose} | 2.2 {pose} | 2.7 none"
+    return mien.apply(source, [Step("displacement", {"keys": keys})])
 
 
 def test_only_the_limb_and_the_time_are_touched() -> None:
@@ -65,15 +64,15 @@ def test_only_the_limb_and_the_time_are_touched() -> None:
     assert mien.check(made).failed == ()
     arm = set(Body.of(still).joints(("left_arm",)))
     others = [j for j in range(len(still.skeleton)) if j not in arm]
-    np.testing.assert_array_equal(made.rotations[:, others], broken.rotations[:, others])
-    np.testing.assert_array_equal(made.rotations[:40], broken.rotations[:40])
-    np.testing.assert_array_equal(made.rotations[-40:], broken.rotations[-40:])
+    np.testing.assert_allclose(made.rotations[:, others], broken.rotations[:, others], atol=1e-12)
+    np.testing.assert_array_equal(made.rotations[:20], broken.rotations[:20])
+    np.testing.assert_array_equal(made.rotations[-20:], broken.rotations[-20:])
 
 
 def test_it_says_what_was_taken_back() -> None:
     made = mien.edit(samples.walk(seconds=3.0).motion, "s0/angry")
-    (said, *_) = mended(made)
-    assert "arm" in said
+    said = " and ".join(mended(made))
+    assert "left arm" in said
     assert "% of the original between" in said
     assert "jitter" in said
 

@@ -17,7 +17,7 @@ _JOIN = "__"  # between edit and parameter in the name that a flag has inside
 # The order in which edits given by flags are done; an edit that is not named follows its kind.
 ORDER = (
     *("trim", "resample", "mirror", "grid", "path_length", "waveshape", "nervous", "timing"),
-    *("posture", "displacement", "tremor", "restore", "foot_plant", "tempo", "repair", "in_place"),
+    *("posture", "displacement", "tremor", "restore", "tempo", "foot_plant", "repair", "in_place"),
 )
 _LAST_OF_KIND = {"time": "mirror", "rhythm": "tempo", "pose": "posture", "repair": "foot_plant"}
 

@@ -23,6 +23,7 @@ AROUND = 0.1  # seconds before and after a failure in which the original comes b
 # Of forces: what brings the original back too quickly needs forces itself.
 AROUND_FORCES: Mapping[str, float] = dict.fromkeys(("balance", "torque", "ground", "flight"), 0.4)
 RAMP = 0.3  # seconds from the edit to the original and back
+RAMP_BODY = 0.8  # of trunk and legs, whose weight needs forces
 ROUNDS = 12
 # What a name in a finding belongs to. A leg alone cannot be restored: hips and feet say where it is.
 ARM = ("hand", "wrist", "forearm", "upper_arm", "elbow", "shoulder", "clavicle")
@@ -85,8 +86,8 @@ class _Search:
         return best
 
     def check(self, motion: Motion) -> Report:
-        """Return what is wrong; feet that slide only count where they were put back on the floor."""
-        names = [n for n in self.known if self.plants or n != "foot_slide"]
+        """Return what is wrong; feet that slide or sink only count where they were put back on the floor."""
+        names = [n for n in self.known if self.plants or n not in ("foot_slide", "floor")]
         scene = Scene.of(motion, source=self.source)
         return compare_scenes(scene, self.source, only=names, known=self.known)
 
@@ -99,7 +100,8 @@ class _Search:
         steps = []
         for limbs in groups.values():
             why = ", ".join(sorted(set().union(*(self.why[limb] for limb in limbs))))
-            curve = _keys(self.amounts[limbs[0]], self.motion)
+            ramp = RAMP_BODY if "torso" in limbs else RAMP
+            curve = _keys(self.amounts[limbs[0]], self.motion, ramp)
             steps.append(Step("restore", {"amount": curve, "why": why}, parts=tuple(limbs)))
         if self.plants and any({"torso", "left_leg", "right_leg"} & set(step.parts) for step in steps):
             steps.append(Step("foot_plant"))
@@ -162,10 +164,10 @@ def _wider(mask: Mask, frames: int) -> Mask:
     return maximum_filter1d(mask, 2 * frames + 1, mode="nearest")
 
 
-def _keys(amount: Array, motion: Motion) -> tuple[tuple[float, float], ...]:
+def _keys(amount: Array, motion: Motion, ramp: float) -> tuple[tuple[float, float], ...]:
     """Return the curve over ``amount`` (T,), with ramps to both sides, as ``(seconds, amount)``."""
     frames = np.arange(len(amount))
-    slope = motion.frame_time / RAMP
+    slope = motion.frame_time / ramp
     up = np.maximum.accumulate(amount + slope * frames) - slope * frames
     down = np.maximum.accumulate((amount - slope * frames)[::-1])[::-1] + slope * frames
     ramped = np.maximum(np.maximum(up, down), 0.0)

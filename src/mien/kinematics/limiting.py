@@ -33,9 +33,10 @@ def limited(motion: Motion, body: Body, allowed: Array) -> Motion:
         wrong = joints.joints[back.any(axis=(0, 2))]
         if not len(wrong):
             break
+        before = np.array(rotations)
         turned = quaternion.multiply(rotations[:, joints.joints], quaternion.exp(back))
         rotations[:, joints.joints] = turned
-        rotations[:, wrong] = calm_change(motion.rotations[:, wrong], rotations[:, wrong], sigma=sigma)
+        rotations[:, wrong] = calm_change(before[:, wrong], rotations[:, wrong], sigma=sigma)
     return motion.with_(rotations=quaternion.continuous(rotations))
 
 

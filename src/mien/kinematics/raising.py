@@ -6,12 +6,13 @@ from ..motion import Motion
 from ..signal.bridging import envelope
 from ..typing import Array
 from .body import SIDES, Body
-from .constraints import InRegion, Point
+from .constraints import Constraint, InRegion, Point
 from .contacts import Contacts
 from .fk import world
+from .gentle import gently
 from .legs import Placed, over_feet
-from .solver import solve
 
+CALM = 0.08  # seconds over which turns are smoothed
 AROUND = 0.2  # seconds before and after that a part is on its way up and down
 EASE = {"shoulder": 1.0, "elbow": 0.6, "wrist": 0.3}
 
@@ -46,25 +47,35 @@ def _hips_raised(motion: Motion, body: Body, contacts: Contacts, allowed: Array)
 
 
 def _arms_raised(motion: Motion, body: Body, allowed: Array) -> Motion:
-    places = world(motion)[1]
-    constraints = []
-    for joint in _below(motion, body, "elbow"):
-        height = places[:, joint] @ body.up
-        need = np.maximum(body.floor - allowed - height, 0.0)
-        if need.any():
-            lift = envelope(need, reach=round(AROUND / motion.frame_time))
-            # Where nothing is needed, any height will do.
-            level = np.where(lift > 0.0, height + lift, height.min() - body.leg_length)
-            constraints.append(InRegion(Point(joint), body.up, level))
-    if not constraints:
-        return motion
     ease = {
         body.roles[f"{side}_{role}"]: easy
         for side in SIDES
         for role, easy in EASE.items()
         if f"{side}_{role}" in body.roles
     }
-    return solve(motion, constraints, size=body.leg_length, ease=ease).motion
+
+    def ask(now: Motion) -> list[Constraint]:
+        return _above_floor(now, body, allowed)
+
+    return gently(motion, ask, size=body.leg_length, ease=ease, calm=CALM)
+
+
+def _above_floor(motion: Motion, body: Body, allowed: Array) -> list[Constraint]:
+    """Return what lifts the lowest joint of each forearm and hand where it is too low.
+
+    Of several at once, each would turn the arm its own way.
+    """
+    places, out = world(motion)[1], []
+    for side in SIDES:
+        joints = motion.skeleton.descendants(body.roles[f"{side}_elbow"])
+        height = places[:, joints] @ body.up
+        low = height.min(axis=1) < body.floor - allowed - 1e-4 * body.leg_length
+        lowest = height.argmin(axis=1)
+        for place in np.unique(lowest[low]):
+            # Where nothing is needed, any height will do.
+            level = np.where(low & (lowest == place), body.floor - allowed, height.min() - body.leg_length)
+            out.append(InRegion(Point(int(joints[place])), body.up, level))
+    return list[Constraint](out)
 
 
 def _below(motion: Motion, body: Body, role: str) -> list[int]:
