@@ -29,6 +29,14 @@ def test_all_of_it_is_the_original_but_for_the_way() -> None:
     np.testing.assert_allclose(here @ body.forward, there @ body.forward, atol=1e-9)
 
 
+def test_with_travel_all_of_it_is_the_original_to_the_last_number() -> None:
+    walk = samples.walk(seconds=3.0).motion
+    edited = mien.apply(walk, [Step("path_length", {"mid": 0.5}), Step("foot_plant")])
+    back = mien.apply(edited, [Step("restore", {"amount": 1.0, "travel": True})])
+    np.testing.assert_allclose(back.rotations, walk.rotations, atol=1e-12)
+    np.testing.assert_allclose(world(back)[1], world(walk)[1], atol=1e-9 * Body.of(walk).leg_length)
+
+
 def test_nothing_of_it_is_the_edit() -> None:
     edited = sad(samples.walk(seconds=2.0).motion)
     np.testing.assert_array_equal(mien.apply(edited, [Step("restore")]).rotations, edited.rotations)

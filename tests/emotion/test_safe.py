@@ -112,3 +112,18 @@ def test_without_feet_put_back_they_may_slide() -> None:
 )
 def test_parts_of_checks_belong_to_limbs(part: str, limbs: set[str]) -> None:
     assert set(limbs_of(part)) == limbs
+
+
+def test_the_last_resort_is_the_original_as_a_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With no search at all: an edit that nothing but the original mends comes back as that, and says so."""
+    monkeypatch.setattr("mien.emotion.safe.ROUNDS", 0)
+    still = samples.still(seconds=4.0).motion
+    keys = "0 none | 1 left_elbow 150 0 0; right_elbow 150 0 0; head 150 0 0 | 2 none"
+    broken = mien.apply(still, [Step("displacement", {"keys": keys})])
+    assert mien.check(broken).failed
+    made = safe(broken)
+    assert mien.check(made).failed == ()
+    assert made.history[-1].parameters["why"] == "last resort"
+    assert "all along" in mended(made)[0]
+    if made.history[-1].parameters["amount"] == 1.0:
+        np.testing.assert_allclose(made.rotations, still.rotations, atol=1e-12)

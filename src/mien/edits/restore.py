@@ -29,9 +29,10 @@ def restore(
     *,
     original: Motion | None = None,
     amount: Annotated[float, Param("0 the edit, 1 the original", 0.0, 1.0, neutral=0.0)] = 0.0,
+    travel: Annotated[bool, Param("also go back to the original's way over the ground")] = False,
     why: Annotated[str, Param("what it is for; changes nothing")] = "",
 ) -> Motion:
-    """Blend every pose with the original's at that moment; travel over the ground stays that of the edit.
+    """Blend every pose with the original's at that moment; without ``travel`` the way stays that of the edit.
 
     ``original`` is the motion before the edits, with the same skeleton and frames. Feet may slide
     afterwards: put ``foot_plant`` behind it. Raises ``MienError`` when the frames differ, ``BodyError`` where
@@ -47,6 +48,8 @@ def restore(
         return motion
     body = Body.of(original)
     out = blend(motion, original, np.full(motion.rotations.shape[:2], amount))
+    if travel:
+        return out
     hips = body.roles["hips"]
     here, there = world(motion)[1][:, hips], Placed.of(out, body)
     away = here - there.positions[:, hips]

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..analysis.checks.report import Finding, Report, compare_scenes, measured
+from ..analysis.checks.report import Report, compare_scenes, measured
 from ..analysis.checks.scene import Scene
 from ..curve import is_curve
 from ..edits import pipeline
@@ -25,6 +25,7 @@ AROUND_FORCES: Mapping[str, float] = dict.fromkeys(("balance", "torque", "ground
 RAMP = 0.3  # seconds from the edit to the original and back
 RAMP_BODY = 0.8  # of trunk and legs, whose weight needs forces
 ROUNDS = 12
+LAST = "last resort"
 # What a name in a finding belongs to. A leg alone cannot be restored: hips and feet say where it is.
 ARM = ("hand", "wrist", "forearm", "upper_arm", "elbow", "shoulder", "clavicle")
 HEAD = ("head", "neck")
@@ -45,7 +46,9 @@ def mended(motion: Motion) -> tuple[str, ...]:
     """Return in words how much of an edit was taken back to keep the body whole, and why."""
     said = []
     for step in motion.history:
-        if step.edit == "restore" and is_curve(step.parameters["amount"]):
+        if step.edit == "restore" and step.parameters["why"] == LAST:
+            said.append(f"the whole body: {100 * step.parameters['amount']:.0f} % of the original all along")
+        elif step.edit == "restore" and is_curve(step.parameters["amount"]):
             curve = step.parameters["amount"]
             times = [t for t, amount in curve if amount > 0.0]
             most = max(amount for _, amount in curve)
@@ -69,21 +72,29 @@ class _Search:
         self.why: dict[str, set[str]] = {limb: set() for limb in LIMBS}
 
     def run(self) -> Motion:
-        """Return the safe motion, or the best that was found."""
+        """Return the safe motion."""
         report = self.check(self.motion)
         if not report.failed:
             return self.motion
         self.base = pipeline.apply(self.motion, [Step("repair")])
-        best, least = (self.motion, severity(report))
-        for turn in range(ROUNDS + 1):
+        if severity(self.check(self.base)) > severity(report):
+            self.base = self.motion
+        for turn in range(ROUNDS):
             out = self.restored()
             report = self.check(out)
             if not report.failed:
                 return out
-            if severity(report) < least:
-                best, least = out, severity(report)
             self.more(report, turn + 1)
-        return best
+        return self.reverted()
+
+    def reverted(self) -> Motion:
+        """Return the motion reverted as a whole, by as little as it can be: the last resort."""
+        for share in (THIRD, 2.0 * THIRD):
+            back = Step("restore", {"amount": share, "travel": True, "why": LAST})
+            out = pipeline.apply(self.motion, [back, *([Step("foot_plant")] if self.plants else [])])
+            if not self.check(out).failed:
+                return out
+        return pipeline.apply(self.motion, [Step("restore", {"amount": 1.0, "travel": True, "why": LAST})])
 
     def check(self, motion: Motion) -> Report:
         """Return what is wrong; feet that slide or sink only count where they were put back on the floor."""
@@ -128,11 +139,8 @@ class _Search:
 
 def severity(report: Report) -> float:
     """Return how wrong a motion is in all: what is too much, in tolerances, summed over parts and time."""
-    return float(sum(_excess(f) for f in report.findings if not f.passed))
-
-
-def _excess(finding: Finding) -> float:
-    return float(np.maximum(finding.over, 0.0).sum() / max(finding.check.tolerance, 1e-9))
+    failed = (f for f in report.findings if not f.passed)
+    return float(sum(np.maximum(f.over, 0.0).sum() / f.check.tolerance for f in failed))
 
 
 def limbs_of(name: str) -> tuple[str, ...]:

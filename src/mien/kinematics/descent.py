@@ -1,8 +1,8 @@
 """Damped least squares on many frames at once: joints turn until points are where constraints ask for them.
 
-With ``J`` the change of all errors ``e`` with the turns, and ``M`` how easily each joint turns, a step is
+With ``J`` the change of all errors ``e`` with the turns, and ``M`` how easily each joint turns, a step is::
 
-    M J' (J M J' + d 1)^-1 (-e),        d = c |e|^2 / 2 + 1e-6 size^2
+    M J' (J M J' + d 1)^-1 (-e),        d = c e'e / 2 + 1e-6 size^2
 
 (Wampler 1986). Damping that follows the square of the errors (Sugihara 2011) is careful far away and beside
 targets that nothing reaches, and lets go where a few Newton steps remain; in it, no error counts as more than
