@@ -165,8 +165,8 @@ def pose_between(neutral: Motion, changed: Motion) -> Pose:
     """
     body = Body.of(neutral)
     same = neutral.skeleton.names == changed.skeleton.names
-    before = _segment_rotations(neutral, body)
-    after = _segment_rotations(changed, body if same else Body.of(changed))
+    before = _mean_segments(neutral, body)
+    after = _mean_segments(changed, body if same else Body.of(changed))
     turns: dict[str, Turn] = {}
     for segment in SEGMENTS:
         if segment in before and segment in after:
@@ -194,8 +194,11 @@ def anatomical_axes(body: Body) -> Array:
     return np.stack([body.left, body.up, body.forward])
 
 
-def _segment_rotations(motion: Motion, body: Body) -> dict[str, Array]:
-    """Return the mean rotation (4,) of each segment against its parent segment, in anatomical axes."""
+def segment_rotations(motion: Motion, body: Body) -> dict[str, Array]:
+    """Return segment -> its rotations (T, 4) against its parent segment, in anatomical axes.
+
+    The first segment, the hips, is told against the heading of the body. In the neutral stance all are one.
+    """
     rotations, positions = world(motion)
     facing = quaternion.conjugate(heading_rotation(positions, body))
     stance = quaternion.conjugate(neutral_world(motion, body)[0])
@@ -210,8 +213,19 @@ def _segment_rotations(motion: Motion, body: Body) -> dict[str, Array]:
         turned = (
             rotation if base is None else quaternion.multiply(quaternion.conjugate(upright[base]), rotation)
         )
-        out[segment] = _mean(_in_axes(turned, anatomical_axes(body)))
+        out[segment] = _in_axes(turned, anatomical_axes(body))
     return out
+
+
+def mean_rotation(q: Array) -> Array:
+    """Return the mean rotation (4,) of (T, 4): the main axis of the sum of ``q q^T`` (Markley 2007)."""
+    values, vectors = np.linalg.eigh(q.T @ q)
+    main: Array = vectors[:, np.argmax(values)]
+    return main
+
+
+def _mean_segments(motion: Motion, body: Body) -> dict[str, Array]:
+    return {name: mean_rotation(q) for name, q in segment_rotations(motion, body).items()}
 
 
 def _ancestors(segment: str) -> list[str]:
@@ -228,10 +242,3 @@ def _ancestors(segment: str) -> list[str]:
 def _in_axes(q: Array, axes: Array) -> Array:
     """Return rotations with their axes given by components along the rows of ``axes``."""
     return np.concatenate([q[..., :3] @ axes.T, q[..., 3:]], axis=-1)
-
-
-def _mean(q: Array) -> Array:
-    """Return the mean rotation (4,) of (T, 4): the main axis of the sum of ``q q^T`` (Markley 2007)."""
-    values, vectors = np.linalg.eigh(q.T @ q)
-    main: Array = vectors[:, np.argmax(values)]
-    return main

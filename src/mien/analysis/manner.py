@@ -1,0 +1,182 @@
+"""How a person moves, whatever they do: how they hold themselves, how far and how fast each limb goes.
+
+What differs between two clips of the same action is their manner, and what differs can be done to any other
+clip: Amaya, Bruderlin and Calvert (1996) took speed and spatial amplitude; here posture is measured as well,
+amplitude for each limb, and the evenness of movement. Skeletons, units, frame rates and headings may differ.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from ..kinematics.body import ARM, LEG, SIDES, Body
+from ..kinematics.fk import world
+from ..kinematics.lead_in import lead_in
+from ..kinematics.poses import Pose, mean_rotation, segment_rotations
+from ..motion import Motion
+from ..rotations import quaternion
+from ..signal.bridging import smooth
+from ..typing import Array
+
+# Which segments' turns are the movement of a limb.
+LIMBS: Mapping[str, tuple[str, ...]] = {
+    "head": ("neck", "head"),
+    "torso": ("hips", "trunk"),
+    **{f"{side}_arm": tuple(f"{side}_{role}" for role in ARM) for side in SIDES},
+    **{f"{side}_leg": tuple(f"{side}_{role}" for role in LEG[:3]) for side in SIDES},
+}
+SLOWEST, FASTEST = 0.3, 6.0  # Hz: slower is posture, faster is noise
+STILL = np.radians(0.5)  # less movement of a limb than this says nothing
+MOST_GAIN, MOST_RATE = 4.0, 2.5  # what differs more is another action
+
+
+@dataclass(frozen=True, eq=False)
+class Manner:
+    """How someone moves in a clip.
+
+    ``pose`` segment -> mean rotation (4,) against its parent segment; ``hips_height`` over the lower ankle,
+    median, in leg lengths; ``swing`` limb -> how far its segments turn about their slow mean, root mean
+    square in radians; ``rate`` how quickly they go to and fro, in radians a second: speed over swing;
+    ``sharpness`` acceleration over speed, in units of the rate: 1 for a sine, more where movement jerks.
+    """
+
+    pose: Mapping[str, Array]
+    hips_height: float
+    swing: Mapping[str, float]
+    rate: float
+    sharpness: float
+
+    @classmethod
+    def of(cls, motion: Motion, body: Body | None = None) -> Self:
+        """Return the manner of a motion; a T-pose that comes first is left out.
+
+        Raises ``BodyError`` where no body is found.
+        """
+        body = body if body is not None else Body.of(motion)
+        start = lead_in(motion)
+        motion = motion[start:] if start else motion
+        turned = segment_rotations(motion, body)
+        pose = {segment: mean_rotation(q) for segment, q in turned.items()}
+        moved = {s: _to_and_fro(q, pose[s], motion.frame_time) for s, q in turned.items()}
+        swing = {
+            limb: _size([moved[s] for s in segments if s in moved])
+            for limb, segments in LIMBS.items()
+            if any(s in moved for s in segments)
+        }
+        everything = np.concatenate(list(moved.values()), axis=-1)
+        rate, sharpness = _quickness(everything, motion.frame_time)
+        return cls(pose, _hips_height(motion, body), swing, rate, sharpness)
+
+
+@dataclass(frozen=True, eq=False)
+class Change:
+    """What differs in manner: what to do to one motion to make it move like another.
+
+    ``pose`` turns in degrees, ``hips_height`` in leg lengths (added); ``swing`` limb -> gain, ``rate`` and
+    ``sharpness`` as factors.
+    """
+
+    pose: Pose
+    hips_height: float
+    swing: Mapping[str, float]
+    rate: float
+    sharpness: float
+
+    def __mul__(self, amount: float) -> Self:
+        """Return so much of the change: 0 is none, 2 twice as much."""
+        return type(self)(
+            self.pose * amount,
+            self.hips_height * amount,
+            {limb: gain**amount for limb, gain in self.swing.items()},
+            self.rate**amount,
+            self.sharpness**amount,
+        )
+
+
+def difference(before: Manner, after: Manner) -> Change:
+    """Return what differs between two manners (Amaya, Bruderlin & Calvert 1996, generalised).
+
+    What only one of the bodies has is left out. Gains are at most 4 either way, the rate 2.5.
+    """
+    turns = {}
+    for segment in before.pose:
+        if segment in after.pose:
+            apart = quaternion.multiply(quaternion.conjugate(before.pose[segment]), after.pose[segment])
+            x, y, z = np.degrees(quaternion.log(apart))
+            # The heading is what the pose is told against.
+            turns[segment] = (float(x), 0.0 if segment == "hips" else float(y), float(z))
+    swing = {
+        limb: _ratio(before.swing[limb], after.swing[limb], STILL, MOST_GAIN)
+        for limb in before.swing
+        if limb in after.swing
+    }
+    return Change(
+        Pose(turns),
+        after.hips_height - before.hips_height,
+        swing,
+        _ratio(before.rate, after.rate, 1e-3, MOST_RATE),
+        _ratio(before.sharpness, after.sharpness, 1e-3, MOST_RATE),
+    )
+
+
+def mean_change(changes: Iterable[Change]) -> Change:
+    """Return the mean of several changes: arithmetic of angles and heights, geometric of factors.
+
+    Raises ``ValueError`` where there are none.
+    """
+    found = list(changes)
+    if not found:
+        raise ValueError("the mean of no changes is not defined")
+    pose, height, rate, sharpness = Pose(), 0.0, 1.0, 1.0
+    swing: dict[str, float] = {}
+    for change in found:
+        part = change * (1.0 / len(found))
+        pose, height = pose + part.pose, height + part.hips_height
+        rate, sharpness = rate * part.rate, sharpness * part.sharpness
+        swing = {limb: swing.get(limb, 1.0) * gain for limb, gain in part.swing.items()} | {
+            limb: gain for limb, gain in swing.items() if limb not in part.swing
+        }
+    return Change(pose, height, swing, rate, sharpness)
+
+
+def _to_and_fro(q: Array, mean: Array, frame_time: float) -> Array:
+    """Return how a segment turns about its slow mean (T, 3), in radians, without noise."""
+    turns = quaternion.log(quaternion.multiply(quaternion.conjugate(mean), q))
+    clean = smooth(turns, sigma=_sigma(FASTEST) / frame_time)
+    moved: Array = clean - smooth(turns, sigma=_sigma(SLOWEST) / frame_time)
+    return moved
+
+
+def _sigma(hertz: float) -> float:
+    """Return the seconds of the Gaussian that leaves half of a wave of ``hertz``."""
+    return float(np.sqrt(0.5 * np.log(2.0)) / (np.pi * hertz))
+
+
+def _size(moved: list[Array]) -> float:
+    return float(np.sqrt(sum(np.mean((m**2).sum(axis=-1)) for m in moved)))
+
+
+def _quickness(moved: Array, frame_time: float) -> tuple[float, float]:
+    """Return the rate and the sharpness of movement (T, K)."""
+    if len(moved) < 3:
+        return 0.0, 1.0
+    speed, acceleration = (np.diff(moved, order, axis=0) / frame_time**order for order in (1, 2))
+    way, fast, hard = (float(np.sqrt(np.mean((x**2).sum(axis=-1)))) for x in (moved, speed, acceleration))
+    if way < STILL or fast <= 0.0:
+        return 0.0, 1.0
+    return fast / way, hard * way / fast**2
+
+
+def _hips_height(motion: Motion, body: Body) -> float:
+    height = world(motion)[1] @ body.up
+    ankles = [body.roles[f"{side}_ankle"] for side in SIDES]
+    above = height[:, body.roles["hips"]] - height[:, ankles].min(axis=1)
+    return float(np.median(above) / body.leg_length)
+
+
+def _ratio(before: float, after: float, least: float, most: float) -> float:
+    if min(before, after) < least:
+        return 1.0
+    return float(np.clip(after / before, 1.0 / most, most))
