@@ -38,15 +38,16 @@ class Manner:
 
     ``pose`` segment -> mean rotation (4,) against its parent segment; ``hips_height`` over the lower ankle,
     median, in leg lengths; ``swing`` limb -> how far its segments turn about their slow mean, root mean
-    square in radians; ``rate`` how quickly they go to and fro, in radians a second: speed over swing;
-    ``sharpness`` acceleration over speed, in units of the rate: 1 for a sine, more where movement jerks.
+    square in radians; ``rate`` limb -> how quickly they go to and fro, in radians a second: speed over swing;
+    ``sharpness`` limb -> acceleration over speed, in units of the rate: 1 for a sine, more where movement
+    jerks. Limbs that keep still have no rate and no sharpness.
     """
 
     pose: Mapping[str, Array]
     hips_height: float
     swing: Mapping[str, float]
-    rate: float
-    sharpness: float
+    rate: Mapping[str, float]
+    sharpness: Mapping[str, float]
 
     @classmethod
     def of(cls, motion: Motion, body: Body | None = None) -> Self:
@@ -59,15 +60,21 @@ class Manner:
         motion = motion[start:] if start else motion
         turned = segment_rotations(motion, body)
         pose = {segment: mean_rotation(q) for segment, q in turned.items()}
-        moved = {s: _to_and_fro(q, pose[s], motion.frame_time) for s, q in turned.items()}
-        swing = {
-            limb: _size([moved[s] for s in segments if s in moved])
-            for limb, segments in LIMBS.items()
-            if any(s in moved for s in segments)
+        moved = {
+            limb: np.concatenate(
+                [_to_and_fro(turned[s], pose[s], motion.frame_time) for s in segments], axis=-1
+            )
+            for limb, segments in ((limb, [s for s in own if s in turned]) for limb, own in LIMBS.items())
+            if segments
         }
-        everything = np.concatenate(list(moved.values()), axis=-1)
-        rate, sharpness = _quickness(everything, motion.frame_time)
-        return cls(pose, _hips_height(motion, body), swing, rate, sharpness)
+        quick = {limb: _quickness(way, motion.frame_time) for limb, way in moved.items()}
+        return cls(
+            pose,
+            _hips_height(motion, body),
+            {limb: _size(way) for limb, way in moved.items()},
+            {limb: found[0] for limb, found in quick.items() if found},
+            {limb: found[1] for limb, found in quick.items() if found},
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,8 +123,8 @@ def difference(before: Manner, after: Manner) -> Change:
         Pose(turns),
         after.hips_height - before.hips_height,
         swing,
-        _ratio(before.rate, after.rate, 1e-3, MOST_RATE),
-        _ratio(before.sharpness, after.sharpness, 1e-3, MOST_RATE),
+        _mean_ratio(before, after, "rate"),
+        _mean_ratio(before, after, "sharpness"),
     )
 
 
@@ -154,19 +161,17 @@ def _sigma(hertz: float) -> float:
     return float(np.sqrt(0.5 * np.log(2.0)) / (np.pi * hertz))
 
 
-def _size(moved: list[Array]) -> float:
-    return float(np.sqrt(sum(np.mean((m**2).sum(axis=-1)) for m in moved)))
+def _size(moved: Array) -> float:
+    """Return the root mean square of vectors (T, K)."""
+    return float(np.sqrt(np.mean((moved**2).sum(axis=-1)))) if len(moved) else 0.0
 
 
-def _quickness(moved: Array, frame_time: float) -> tuple[float, float]:
-    """Return the rate and the sharpness of movement (T, K)."""
+def _quickness(moved: Array, frame_time: float) -> tuple[float, float] | None:
+    """Return the rate and the sharpness of movement (T, K); None where there is none to speak of."""
     if len(moved) < 3:
-        return 0.0, 1.0
-    speed, acceleration = (np.diff(moved, order, axis=0) / frame_time**order for order in (1, 2))
-    way, fast, hard = (float(np.sqrt(np.mean((x**2).sum(axis=-1)))) for x in (moved, speed, acceleration))
-    if way < STILL or fast <= 0.0:
-        return 0.0, 1.0
-    return fast / way, hard * way / fast**2
+        return None
+    way, fast, hard = (_size(np.diff(moved, order, axis=0) / frame_time**order) for order in range(3))
+    return (fast / way, hard * way / fast**2) if way > STILL and fast > 0.0 else None
 
 
 def _hips_height(motion: Motion, body: Body) -> float:
@@ -180,3 +185,14 @@ def _ratio(before: float, after: float, least: float, most: float) -> float:
     if min(before, after) < least:
         return 1.0
     return float(np.clip(after / before, 1.0 / most, most))
+
+
+def _mean_ratio(before: Manner, after: Manner, what: str) -> float:
+    """Return the geometric mean of a quality's ratio over limbs, by how far each moves in both."""
+    old, new = getattr(before, what), getattr(after, what)
+    limbs = [limb for limb in old if limb in new]
+    if not limbs:
+        return 1.0
+    logs = [np.log(new[limb] / old[limb]) for limb in limbs]
+    weights = [np.sqrt(before.swing[limb] * after.swing[limb]) for limb in limbs]
+    return float(np.clip(np.exp(np.average(logs, weights=weights)), 1.0 / MOST_RATE, MOST_RATE))
