@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .analysis.compare import compare as compare
     from .emotion.files import read_recipe as read_recipe
     from .emotion.files import write_recipe as write_recipe
+    from .emotion.mix import mixed as mixed
     from .emotion.presets import PRESETS as PRESETS
     from .emotion.presets import preset as preset
     from .emotion.resolve import apply as apply
@@ -60,6 +61,7 @@ _HOME = {
     "edit": ".emotion.resolve",
     "grid": ".styles.grid",
     "load": ".formats",
+    "mixed": ".emotion.mix",
     "preset": ".emotion.presets",
     "read_recipe": ".emotion.files",
     "render": ".",

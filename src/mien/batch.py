@@ -11,11 +11,15 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from .curve import Varying
-from .emotion.files import format_recipe, read_provenance, sidecar_of
+import numpy as np
+
+from .curve import Varying, values
+from .edits.registry import EDITS
+from .emotion.files import read_provenance, sidecar_of
+from .emotion.recipe_text import format_recipe
 from .emotion.resolve import done
 from .errors import FormatError, MienError, RecipeError, sentence
-from .formats import files, load, save
+from .formats import FORMATS, files, load, save
 from .kinematics.roles import known_roles
 from .motion import Motion
 from .recipe import Recipe
@@ -93,12 +97,28 @@ def edited(job: Job) -> tuple[Motion, Motion]:
 def doubts(job: Job, before: Motion, after: Motion) -> tuple[str, ...]:
     """Return what makes the result of a job doubtful: damage cut away, an odd rate, hips that jump.
 
-    And what of the edit was taken back to keep the body whole.
+    And what of the edit was taken back to keep the body whole, or that there is nothing of it.
     """
     from .analysis.inspect import doubts as odd
     from .emotion.safe import mended
 
-    return (*_damage(job, before), *odd(before), *mended(after))
+    return (*_damage(job, before), *odd(before), *mended(after), *_nothing(job, before, after))
+
+
+def _nothing(job: Job, before: Motion, after: Motion) -> list[str]:
+    """Return why nothing moves differently, where that was not asked for."""
+    steps = job.recipe.steps
+    same = len(before) == len(after) and before.frame_time == after.frame_time
+    if not steps or not same or not any(values(job.strength)):
+        return []
+    if not all(
+        map(np.array_equal, (before.rotations, before.translations), (after.rotations, after.translations))
+    ):
+        return []
+    rhythms = [step.edit for step in steps if EDITS[step.edit].kind == "rhythm"]
+    if job.parts and rhythms:
+        return [f"nothing moves differently: {' and '.join(rhythms)} cannot be done to some parts only"]
+    return ["nothing moves differently: these edits find nothing to do here, or come after the clip ends"]
 
 
 def _damage(job: Job, motion: Motion) -> list[str]:
@@ -121,7 +141,7 @@ def opened(path: Path, *, body: Mapping[str, str], fps: float | None = None, sal
 def provenance(job: Job, motion: Motion) -> str:
     """Return the text of the sidecar: every step with all its parameters, and what it was done to."""
     about: dict[str, Any] = {
-        "input": job.source.name,
+        "input": _relative(job.source, job.target.parent),
         "input_sha256": hashlib.sha256(job.source.read_bytes()).hexdigest(),
         "output": job.target.name,
         "mien": version("mien"),
@@ -149,17 +169,28 @@ def how_it_was_read(sidecar: Path) -> tuple[dict[str, Any], dict[str, str]]:
 def source_of(clip: Path) -> Path | None:
     """Return the clip that ``clip`` was made from, by the recipe file beside it, if both are still there.
 
-    Only if it is the very file: one that was changed since is another clip.
+    It is looked for where the recipe says, beside the clip, above it and in the working folder. Only if it is
+    the very file: one that was changed since is another clip.
     """
     recipe = sidecar_of(clip)
     if not recipe.exists():
         return None
     about = read_provenance(recipe)
     name, digest = about.get("input"), about.get("input_sha256")
-    source = clip.with_name(Path(name).name) if isinstance(name, str) else None
-    if source is None or not source.is_file():
+    if not isinstance(name, str) or "\0" in name:
         return None
-    return source if hashlib.sha256(source.read_bytes()).hexdigest() == digest else None
+    folders = dict.fromkeys([clip.parent, clip.parent.parent, Path()])
+    places = [clip.parent / name, *(folder / Path(name).name for folder in folders)]
+    there = (place for place in places if place.suffix.lower() in FORMATS and place.is_file())
+    return next((p for p in there if hashlib.sha256(p.read_bytes()).hexdigest() == digest), None)
+
+
+def _relative(path: Path, folder: Path) -> str:
+    """Return the path as it is said in a folder: what is found again where both are moved together."""
+    try:
+        return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
+    except ValueError:  # on another drive
+        return path.resolve().as_posix()
 
 
 def _leave_interrupts_to_parent() -> None:

@@ -8,6 +8,7 @@ import pytest
 import mien
 from mien import samples
 from mien.analysis.manner import LIMBS, Change, Manner, difference, mean_change
+from mien.errors import MienError
 from mien.kinematics.poses import Pose
 from mien.motion import Motion
 from mien.recipe import Step
@@ -88,7 +89,7 @@ def test_the_mean_of_changes() -> None:
     assert (mean.hips_height, mean.swing["head"], mean.rate) == pytest.approx((0.01, 1.0, 1.1))
     half = one * 0.5
     assert (half.swing["head"], half.rate, half.hips_height) == pytest.approx((2**0.5, 1.1, 0.01))
-    with pytest.raises(ValueError, match="no changes"):
+    with pytest.raises(MienError, match="no changes"):
         mean_change([])
 
 

@@ -32,7 +32,7 @@ ARRAYS_ONLY = ("rotations", "signal")
 # A notebook asks the object itself for its picture, so this one looks up, when asked, by the front door.
 DISPLAY = {("motion", "")}
 # Files of edits/ that are not an edit themselves; every edit may import these and no other.
-SHARED = ("__init__", "keyed", "parameters", "pipeline", "registry")
+SHARED = ("__init__", "keyed", "order", "parameters", "pipeline", "registry")
 # (importer, imported) that may go against the table, and why.
 EXCUSED = {
     ("motion", ""): "a motion shows itself in notebooks; who draws it is looked up when it is asked to",

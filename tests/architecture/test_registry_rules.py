@@ -10,7 +10,7 @@ from mien.edits.registry import EDITS
 from mien.kinematics import body
 
 ROOT = Path(__file__).resolve().parents[2]
-SHARED = {"__init__", "keyed", "parameters", "pipeline", "registry"}
+SHARED = {"__init__", "keyed", "order", "parameters", "pipeline", "registry"}
 FILES = sorted(p.stem for p in (ROOT / "src" / "mien" / "edits").glob("*.py") if p.stem not in SHARED)
 
 

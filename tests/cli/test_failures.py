@@ -24,7 +24,7 @@ BAD_USAGE = {
     "unknown emotion": (["edit", "walk.bvh", "-e", "sda"], "did you mean 'sad'?"),
     "two sources": (["edit", "walk.bvh", "-e", "sad", "-r", "x.toml"], "not both"),
     "missing recipe": (["edit", "walk.bvh", "-r", "x.toml"], "x.toml: there is no such file"),
-    "two emotions": (["edit", "walk.bvh", "-e", "sad", "-e", "tired"], "one emotion, not sad and tired"),
+    "two emotions": (["edit", "walk.bvh", "-e", "sad", "-e", "sad"], "give each emotion once"),
     "ease alone": (["edit", "walk.bvh", "-e", "sad", "--ease", "1"], "give --span too"),
     "ease below 0": (["edit", "walk.bvh", "-e", "sad", "--span", "0,1", "--ease", "-1"], "0 seconds or more"),
     "clip as recipe": (["edit", "walk.bvh", "-r", "brisk.bvh"], "brisk.bvh: is a clip; a recipe is"),

@@ -4,7 +4,8 @@ from dataclasses import replace
 import pytest
 from typer.testing import Result
 
-from mien.cli.flags import ORDER, compose, describe, flag_name
+from mien.cli.flags import compose, describe, flag_name
+from mien.edits.order import ORDER
 from mien.edits.registry import EDITS
 from mien.recipe import Step
 

@@ -8,10 +8,10 @@ from mien.errors import RecipeError
 
 @pytest.mark.parametrize("table", TABLES)
 def test_every_word_is_on_the_disc_and_has_a_source(table: str) -> None:
-    assert len(words(table)) > 18
-    assert all(p.valence**2 + p.arousal**2 <= 1.0 + 1e-12 for p in words(table).values())
-    assert "Russell 1980" in source(table)
-    assert words(table)["neutral"] == (0.0, 0.0)
+    assert len(words(table=table)) > 18
+    assert all(p.valence**2 + p.arousal**2 <= 1.0 + 1e-12 for p in words(table=table).values())
+    assert "Russell 1980" in source(table=table)
+    assert words(table=table)["neutral"] == (0.0, 0.0)
 
 
 def test_three_emotions_of_the_twelve_are_in_each_quadrant() -> None:
@@ -21,8 +21,8 @@ def test_three_emotions_of_the_twelve_are_in_each_quadrant() -> None:
 
 
 def test_the_tables_disagree_where_their_authors_do() -> None:
-    assert point("angry").valence < -0.5 < point("angry", "circle").valence
-    assert point("pleased").arousal > 0 > point("pleased", "circle").arousal
+    assert point("angry").valence < -0.5 < point("angry", table="circle").valence
+    assert point("pleased").arousal > 0 > point("pleased", table="circle").arousal
 
 
 def test_each_word_is_nearest_to_its_own_place() -> None:
@@ -41,4 +41,4 @@ def test_slips_are_answered_with_the_nearest_word() -> None:
     with pytest.raises(RecipeError, match="'happy'"):
         point("hapy")
     with pytest.raises(RecipeError, match="table"):
-        words("rating")
+        words(table="rating")

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from mien.edits.pipeline import check
 from mien.edits.registry import EDITS, Parameter
-from mien.emotion.files import format_recipe, parse_recipe, read_recipe, write_recipe
+from mien.emotion.files import parse_recipe, read_recipe, write_recipe
+from mien.emotion.recipe_text import format_recipe
 from mien.errors import RecipeError
 from mien.kinematics.body import PARTS, ROLES
 from mien.recipe import Recipe, Step

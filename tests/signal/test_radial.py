@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import RBFInterpolator
 
+from mien.errors import MienError
 from mien.signal.radial import mean_distance, near, through
 
 
@@ -44,7 +45,7 @@ def test_through_repeats_linear_functions(rng: np.random.Generator) -> None:
 
 @pytest.mark.parametrize("points", [[[0, 0], [1, 1], [2, 2], [3, 3]], [[0, 0], [1, 0], [0, 1], [0, 1]]])
 def test_through_says_when_nothing_is_determined(points: list[list[float]]) -> None:
-    with pytest.raises(ValueError, match="determine"):
+    with pytest.raises(MienError, match="determine"):
         through(np.array(points), np.zeros((4, 1)))
 
 

@@ -11,6 +11,7 @@ from typing import Self
 
 import numpy as np
 
+from ..errors import MienError
 from ..kinematics.body import ARM, LEG, SIDES, Body
 from ..kinematics.fk import world
 from ..kinematics.lead_in import lead_in
@@ -50,7 +51,7 @@ class Manner:
     sharpness: Mapping[str, float]
 
     @classmethod
-    def of(cls, motion: Motion, body: Body | None = None) -> Self:
+    def of(cls, motion: Motion, *, body: Body | None = None) -> Self:
         """Return the manner of a motion; a T-pose that comes first is left out.
 
         Raises ``BodyError`` where no body is found.
@@ -131,11 +132,11 @@ def difference(before: Manner, after: Manner) -> Change:
 def mean_change(changes: Iterable[Change]) -> Change:
     """Return the mean of several changes: arithmetic of angles and heights, geometric of factors.
 
-    Raises ``ValueError`` where there are none.
+    Raises ``MienError`` where there are none.
     """
     found = list(changes)
     if not found:
-        raise ValueError("the mean of no changes is not defined")
+        raise MienError("the mean of no changes is not defined; give one or more")
     pose, height, rate, sharpness = Pose(), 0.0, 1.0, 1.0
     swing: dict[str, float] = {}
     for change in found:

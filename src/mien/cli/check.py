@@ -86,7 +86,10 @@ def _source(
     before = against or source_of(path)
     if before is None:
         if recipe.exists():
-            note(f"mien: note: {path} is judged by itself: the clip it was made from is not there any more")
+            note(
+                f"mien: note: {path} is judged by itself, by wide limits: the clip it was made from was not "
+                "found, or is not what it was; --against names it"
+            )
         return None
     source = a.opened(before, fps, salvage, map_file)
     if recipe.exists() and len(source) != len(motion):

@@ -18,7 +18,13 @@ if TYPE_CHECKING:
 
 Emotion = Annotated[
     list[str] | None,
-    typer.Option("--emotion", "-e", metavar="WORD", help="An emotion word; mien presets lists them."),
+    typer.Option(
+        "--emotion",
+        "-e",
+        metavar="WORD",
+        help="An emotion word; mien presets lists them. Several, each with its strength: "
+        "-e sad=0:1,5:0 -e happy=0:0,5:1 turns sad into happy.",
+    ),
 ]
 RecipeFile = Annotated[
     Path | None, typer.Option("--recipe", "-r", help="A recipe file (.toml or .json), or a clip's sidecar.")
@@ -61,7 +67,9 @@ Out = Annotated[
     Path | None,
     typer.Option("--out", "-o", help="The file, or the folder, to write to; - is stdout, for one clip."),
 ]
-Jobs = Annotated[int, typer.Option("--jobs", "-j", help="Processes to share the clips; 0 takes every core.")]
+Jobs = Annotated[
+    int, typer.Option("--jobs", "-j", min=0, help="Processes to share the clips; 0 takes every core.")
+]
 
 
 def edit(
@@ -203,15 +211,12 @@ def _recipe(
 
     if emotions and path:
         raise MienError("give --emotion or --recipe, not both")
-    if len(emotions or ()) > 1:
-        raise MienError(f"give one emotion, not {' and '.join(emotions or ())}; edit the result for the next")
-    what = emotions[0] if emotions else existing(path) if path else None
-    if not (what or flags):
+    if not (emotions or path or flags):
         raise MienError(
             "say what to change: --emotion, --recipe or a flag of an edit "
-            "(mien presets lists emotions, mien edit --help all flags)"
+            "(mien presets lists emotions, mien edit --help all flags, --repair-what floor mends a clip)"
         )
-    recipe = resolve(what) if what else Recipe("edited", ())
+    recipe = _emotions(emotions) if emotions else resolve(existing(path)) if path else Recipe("edited", ())
     if foot_plant is None and not path:
         foot_plant = True
     steps = compose(recipe.steps, flags, foot_plant=foot_plant)
@@ -221,6 +226,19 @@ def _recipe(
     if path and foot_plant is None and "pose" in kinds and "repair" not in kinds:
         note(f"mien: note: {path} puts no feet back on the floor; --foot-plant adds that step")
     return replace(recipe, steps=steps)
+
+
+def _emotions(given: list[str]) -> "Recipe":
+    """Return the recipe of emotion words; of several, or with strengths (``sad=0:1,5:0``), all in one."""
+    from ..emotion.mix import mixed
+    from ..emotion.resolve import resolve
+
+    if len(given) == 1 and "=" not in given[0]:
+        return resolve(given[0])
+    pairs = [(word.strip(), strength) for word, _, strength in (item.partition("=") for item in given)]
+    if len(dict(pairs)) < len(pairs):
+        raise MienError(f"--emotion: {' and '.join(word for word, _ in pairs)}: give each emotion once")
+    return mixed({word: strength or 1.0 for word, strength in pairs})
 
 
 def _eased(recipe: "Recipe", ease: float | None, limited: bool) -> "Recipe":

@@ -8,18 +8,12 @@ from typing import Annotated, Any
 import typer
 
 from ..curve import read_varying, shown
+from ..edits.order import insert, rank
 from ..edits.registry import EDITS, Edit, Param, Parameter
 from ..recipe import Step
 from .signature import with_parameters
 
 _JOIN = "__"  # between edit and parameter in the name that a flag has inside
-
-# The order in which edits given by flags are done; an edit that is not named follows its kind.
-ORDER = (
-    *("trim", "resample", "mirror", "grid", "path_length", "waveshape", "nervous", "timing"),
-    *("posture", "displacement", "tremor", "restore", "tempo", "foot_plant", "repair", "in_place"),
-)
-_LAST_OF_KIND = {"time": "mirror", "rhythm": "tempo", "pose": "posture", "repair": "foot_plant"}
 
 
 def flag_name(edit: str, parameter: str = "") -> str:
@@ -45,36 +39,26 @@ def compose(
     """Return the steps of a recipe with those that flags mean.
 
     A flag of an edit that the recipe has changes every step of that edit in it; any other adds a step, at
-    its place in ``ORDER``. ``foot_plant`` True puts the feet back after the poses are edited,
+    its place in ``edits.order``. ``foot_plant`` True puts the feet back after the poses are edited,
     False leaves no repair of the feet, None leaves the recipe as it is.
     """
     made = list(steps)
-    for name in sorted(flags, key=_rank):
+    for name in sorted(flags, key=rank):
         there = [i for i, step in enumerate(made) if step.edit == name]
         for i in there:
             made[i] = replace(made[i], parameters={**made[i].parameters, **flags[name]})
         if not there:
-            _insert(made, Step(name, dict(flags[name])))
+            insert(made, Step(name, dict(flags[name])))
     if foot_plant is False:
         return tuple(step for step in made if step.edit != "foot_plant")
     names = {step.edit for step in made}
     if foot_plant and "foot_plant" not in names and any(EDITS[name].poses for name in names):
-        _insert(made, Step("foot_plant"))
+        insert(made, Step("foot_plant"))
     return tuple(made)
 
 
-def _insert(steps: list[Step], step: Step) -> None:
-    """Put a step before the first that comes later in ``ORDER``."""
-    later = [i for i, other in enumerate(steps) if _rank(other.edit) > _rank(step.edit)]
-    steps.insert(later[0] if later else len(steps), step)
-
-
-def _rank(name: str) -> int:
-    return ORDER.index(name if name in ORDER else _LAST_OF_KIND[EDITS[name].kind])
-
-
 def _ordered() -> list[Edit]:
-    return sorted(EDITS.values(), key=lambda edit: (_rank(edit.name), edit.name))
+    return sorted(EDITS.values(), key=lambda edit: (rank(edit.name), edit.name))
 
 
 def _options(edit: Edit) -> list[inspect.Parameter]:

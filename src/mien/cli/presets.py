@@ -18,8 +18,8 @@ def presets(
 
     mien presets sad > mine.toml
     """
-    from ..emotion.files import format_recipe
     from ..emotion.presets import PRESETS, preset
+    from ..emotion.recipe_text import format_recipe
     from ..emotion.resolve import resolve
 
     if name:

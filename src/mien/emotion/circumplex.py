@@ -44,7 +44,7 @@ class Point(NamedTuple):
 
 
 @cache
-def words(table: str = "ratings") -> Mapping[str, Point]:
+def words(*, table: str = "ratings") -> Mapping[str, Point]:
     """Return emotion word -> its point, of the table ``"ratings"`` or ``"circle"``.
 
     Raises ``RecipeError`` for another name.
@@ -62,28 +62,29 @@ def words(table: str = "ratings") -> Mapping[str, Point]:
     return MappingProxyType({"neutral": Point(0.0, 0.0), **found})
 
 
-def source(table: str = "ratings") -> str:
+def source(*, table: str = "ratings") -> str:
     """Return where the numbers of a table come from."""
-    words(table)
+    words(table=table)
     return str(_tables()[table]["source"])
 
 
-def point(word: str, table: str = "ratings") -> Point:
+def point(word: str, *, table: str = "ratings") -> Point:
     """Return the point of an emotion word, in upper or lower case.
 
     Raises ``RecipeError`` with the nearest word that is known.
     """
-    known = words(table)
+    known = words(table=table)
     plain = " ".join(word.casefold().split())
     if plain not in known:
         raise RecipeError(unknown("emotion word", word, known))
     return known[plain]
 
 
-def nearest(valence: float, arousal: float, table: str = "ratings") -> tuple[tuple[str, float], ...]:
+def nearest(valence: float, arousal: float, *, table: str = "ratings") -> tuple[tuple[str, float], ...]:
     """Return all words by their distance from a point, the nearest first, as ``(word, distance)``."""
     away = {
-        word: float(np.hypot(p.valence - valence, p.arousal - arousal)) for word, p in words(table).items()
+        word: float(np.hypot(p.valence - valence, p.arousal - arousal))
+        for word, p in words(table=table).items()
     }
     return tuple(sorted(away.items(), key=lambda item: (item[1], item[0])))
 

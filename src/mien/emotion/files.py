@@ -1,46 +1,21 @@
-"""Recipe files: a recipe as TOML or JSON that a person can read, write and send to somebody.
+"""Recipe files, and the file beside an edited clip that says how it was made.
 
-::
-
-    version = 1
-    name = "sad"
-    description = "shorter paths, head down"
-    evidence = "works"
-
-    [sources]
-    head = "where the number comes from"
-
-    [[steps]]
-    edit = "path_length"
-    mid = 0.6
-    parts = ["arms"]
-    span = [0.5, 2.0]
-    strength = [[0.5, 0.0], [1.0, 1.0]]
-
-A step holds its parameters beside ``edit``, ``strength``, ``parts``, ``span`` and ``ease``. A number may be
-a curve: a list of times in seconds, each with its value. A file may carry a ``[provenance]`` table (what
-made a clip); it is not part of the recipe.
+What is in them, ``recipe_text`` says. A file may carry a ``[provenance]`` table (what made a clip); it is not
+part of the recipe.
 """
 
-import json
-from collections.abc import Mapping
-from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
-from ..curve import Varying, read_varying
-from ..edits import pipeline
-from ..edits.registry import EDITS
-from ..errors import RecipeError, unknown
+from ..errors import RecipeError
 from ..formats import FORMATS
-from ..kinematics.body import PARTS, ROLES
-from ..recipe import VERSION, Recipe, Step
+from ..recipe import Recipe
+from . import recipe_text
+from .presets import preset
+from .recipe_text import Kind, decode, format_recipe, require
 
 SUFFIXES = (".toml", ".json")
 SIDECAR = ".recipe.toml"  # what the file beside an edited clip is called, after the clip's own name
-Kind = Literal["toml", "json"]
-_STEP_KEYS = tuple(f.name for f in fields(Step) if f.name != "parameters")
-_RECIPE_KEYS = tuple(f.name for f in fields(Recipe))
 
 
 def read_recipe(path: str | Path) -> Recipe:
@@ -57,7 +32,7 @@ def read_provenance(path: str | Path) -> dict[str, Any]:
     path = Path(path)
     where = str(path)
     return dict(
-        _is(where, "provenance", _decode(_text(path), _kind(path), where).get("provenance", {}), dict)
+        require(where, "provenance", decode(_text(path), _kind(path), where).get("provenance", {}), dict)
     )
 
 
@@ -73,55 +48,11 @@ def write_recipe(recipe: Recipe, path: str | Path) -> None:
 
 
 def parse_recipe(text: str, *, kind: Kind = "toml", where: str = "recipe") -> Recipe:
-    """Return the recipe written in ``text``; ``where`` names its place in error messages."""
-    table = _decode(text, kind, where)
-    version = table.get("version")
-    if version is None and "turns" in table:
-        raise RecipeError(f"{where}: is a pose file, not a recipe; give it with --posture-pose")
-    if version is None and "keys" in table:
-        raise RecipeError(f"{where}: is a file of keys, not a recipe; give it with --displacement-keys")
-    if version is None:
-        raise RecipeError(f"{where}: has no version; add the line: version = {VERSION}")
-    if version != VERSION or isinstance(version, bool):
-        raise RecipeError(
-            f"{where}: version is {version!r}, but this mien reads recipes of version {VERSION}"
-        )
-    _known_keys(where, "recipe key", table, (*_RECIPE_KEYS, "provenance"))
-    sources = _is(where, "sources", table.get("sources", {}), dict)
-    for key, source in sources.items():
-        _is(where, f"sources.{key}", source, str)
-    return Recipe(
-        name=_is(where, "name", table.get("name"), str),
-        steps=tuple(
-            _step(f"{where} step {number}", step)
-            for number, step in enumerate(_is(where, "steps", table.get("steps", []), list), start=1)
-        ),
-        description=_is(where, "description", table.get("description", ""), str),
-        evidence=_is(where, "evidence", table.get("evidence", ""), str),
-        sources=sources,
-        safe=_is(where, "safe", table.get("safe", False), bool),
-    )
+    """Return the recipe written in ``text``, with the presets as the emotions that steps may name.
 
-
-def format_recipe(recipe: Recipe, *, kind: Kind = "toml", provenance: Mapping[str, Any] | None = None) -> str:
-    """Return the text that ``parse_recipe`` reads back to an equal recipe.
-
-    ``provenance`` is a table about the clip that the recipe made, written beside the recipe.
+    ``where`` names its place in error messages.
     """
-    head: dict[str, Any] = {"version": recipe.version, "name": recipe.name}
-    for key in ("description", "evidence"):
-        if getattr(recipe, key):
-            head[key] = getattr(recipe, key)
-    head |= {"safe": True} if recipe.safe else {}
-    tables = {"sources": dict(recipe.sources), "provenance": dict(provenance or {})}
-    head |= {name: table for name, table in tables.items() if table}
-    steps = [_plain_step(step) for step in recipe.steps]
-    if kind == "json":
-        return json.dumps(head | {"steps": steps}, indent=2, ensure_ascii=False) + "\n"
-    import tomli_w
-
-    tables_of_steps = [f"[[steps]]\n{tomli_w.dumps(step)}" for step in steps]
-    return "\n".join([tomli_w.dumps(head), *tables_of_steps])
+    return recipe_text.parse(text, kind=kind, where=where, words=preset)
 
 
 def _text(path: Path) -> str:
@@ -141,103 +72,3 @@ def _text(path: Path) -> str:
 
 def _kind(path: Path) -> Kind:
     return "json" if path.suffix.lower() == ".json" else "toml"
-
-
-def _decode(text: str, kind: Kind, where: str) -> dict[str, Any]:
-    import tomllib
-
-    try:
-        table = json.loads(text) if kind == "json" else tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise RecipeError(f"{where}: is not valid {kind.upper()}: {error}") from None
-    return _is(where, "a recipe", table, dict)
-
-
-def _step(where: str, table: Any) -> Step:
-    """Return the checked step of one ``[[steps]]`` table, with the parameters that it gives."""
-    table = _is(where, "a step", table, dict)
-    name = table.get("edit")
-    if name is None:
-        raise RecipeError(f'{where}: names no edit; add a line such as: edit = "posture"')
-    name = _is(where, "edit", name, str)
-    if name in EDITS:
-        _known_keys(f"{where}: {name}", "parameter", table, (*EDITS[name].parameters, *_STEP_KEYS))
-    step = Step(
-        edit=name,
-        parameters={key: value for key, value in table.items() if key not in _STEP_KEYS},
-        strength=_strength(where, table.get("strength", 1.0)),
-        parts=tuple(_part(where, part) for part in _is(where, "parts", table.get("parts", []), list)),
-        span=_span(where, table.get("span")),
-        ease=_number(where, "ease", table.get("ease", Step.ease)),
-    )
-    try:
-        checked = pipeline.check(step)
-    except (RecipeError, OverflowError) as error:
-        raise RecipeError(f"{where}: {error}") from None
-    return replace(step, parameters={key: checked.parameters[key] for key in step.parameters})
-
-
-def _plain_step(step: Step) -> dict[str, Any]:
-    """Return a step as a flat table, leaving out what stands at its default."""
-    usual = Step(step.edit)
-    table: dict[str, Any] = {"edit": step.edit}
-    for key, value in step.parameters.items():
-        if value is not None:  # a parameter that may be None has None as its default
-            table[key] = _plain(value)
-    for key in _STEP_KEYS[1:]:
-        value = getattr(step, key)
-        if value != getattr(usual, key):
-            table[key] = _plain(value)
-    return table
-
-
-def _plain(value: Any) -> Any:
-    """Return tuples, and tuples in tuples, as lists."""
-    return [_plain(item) for item in value] if isinstance(value, tuple) else value
-
-
-def _known_keys(where: str, kind: str, table: Mapping[str, Any], known: tuple[str, ...]) -> None:
-    for key in table:
-        if key not in known:
-            raise RecipeError(f"{where}: {unknown(kind, key, known)}")
-
-
-def _is(where: str, what: str, value: Any, kind: type) -> Any:
-    if not isinstance(value, kind):
-        names: dict[type, str] = {str: "text", list: "a list", dict: "a table of keys and values"}
-        got = "nothing" if value is None else repr(value)
-        raise RecipeError(f"{where}: {what} must be {names[kind]}, got {got:.80}")
-    return value
-
-
-def _number(where: str, what: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise RecipeError(f"{where}: {what} must be a number, got {value!r}")
-    try:
-        return float(value)
-    except OverflowError:
-        raise RecipeError(f"{where}: {what} is far too large") from None
-
-
-def _strength(where: str, value: Any) -> Varying:
-    if not isinstance(value, list):
-        return _number(where, "strength", value)
-    try:
-        return read_varying("strength", value)
-    except RecipeError as error:
-        raise RecipeError(f"{where}: {error}") from None
-
-
-def _part(where: str, part: Any) -> str:
-    if part not in (*PARTS, *ROLES):
-        raise RecipeError(f"{where}: {unknown('body part or role', part, [*PARTS, *ROLES])}")
-    return str(part)
-
-
-def _span(where: str, span: Any) -> tuple[float, float] | None:
-    if span is None:
-        return None
-    if not isinstance(span, list) or len(span) != 2:
-        raise RecipeError(f"{where}: span must be two times in seconds, [start, end], got {span!r}")
-    start, end = (_number(where, "span", time) for time in span)
-    return start, end

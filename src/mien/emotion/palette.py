@@ -96,7 +96,7 @@ def _round(table: str) -> "PchipInterpolator":
     """Return angle in radians, from -pi to 3 pi -> numbers (K,) at a distance of 1."""
     from scipy.interpolate import PchipInterpolator
 
-    places = np.array([point(word, table) for word in ANCHORS])
+    places = np.array([point(word, table=table) for word in ANCHORS])
     numbers = np.array([settings(preset(word).steps) for word in ANCHORS])
     angles = np.arctan2(places[:, 1], places[:, 0])
     order = np.argsort(angles)
@@ -105,7 +105,7 @@ def _round(table: str) -> "PchipInterpolator":
     return PchipInterpolator(turns.ravel(), np.tile(numbers, (4, 1)))
 
 
-def settings_at(valence: float, arousal: float, table: str = "ratings") -> Array:
+def settings_at(valence: float, arousal: float, *, table: str = "ratings") -> Array:
     """Return the numbers (K,) of the recipe that belongs to a point of the disc."""
     place = clamp(valence, arousal)
     numbers: Array = _round(table)(np.arctan2(place.arousal, place.valence))
@@ -117,7 +117,7 @@ def recipe_at(valence: float, arousal: float, *, start: Point = CENTRE, table: s
 
     At the word of an anchor it has that preset's numbers; from a point to itself it has no steps.
     """
-    numbers = settings_at(valence, arousal, table) - settings_at(*start, table)
+    numbers = settings_at(valence, arousal, table=table) - settings_at(*start, table=table)
     name = f"valence {valence:.2f} arousal {arousal:.2f}"
     return Recipe(name, as_steps(numbers), safe=True)
 

@@ -9,7 +9,7 @@ from importlib.resources import files
 
 from ..errors import RecipeError, unknown
 from ..recipe import Recipe
-from .files import parse_recipe
+from .recipe_text import parse
 
 OWN = (
     "afraid",
@@ -66,4 +66,4 @@ def no_emotion(name: str) -> RecipeError:
 @cache
 def _read(name: str) -> Recipe:
     text = files(__package__).joinpath("recipes", f"{name}.toml").read_text(encoding="utf-8")
-    return parse_recipe(text, where=f"preset {name}")
+    return parse(text, where=f"preset {name}")

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..analysis.checks.report import Report, compare_scenes, measured
 from ..analysis.checks.scene import Scene
-from ..curve import is_curve
+from ..curve import evaluate, is_curve
 from ..edits import pipeline
 from ..motion import Motion
 from ..recipe import Step
@@ -46,9 +46,11 @@ def mended(motion: Motion) -> tuple[str, ...]:
     """Return in words how much of an edit was taken back to keep the body whole, and why."""
     said = []
     for step in motion.history:
-        if step.edit == "restore" and step.parameters["why"] == LAST:
+        if step.edit != "restore" or not step.parameters["why"]:
+            continue
+        if step.parameters["why"] == LAST:
             said.append(f"the whole body: {100 * step.parameters['amount']:.0f} % of the original all along")
-        elif step.edit == "restore" and is_curve(step.parameters["amount"]):
+        elif is_curve(step.parameters["amount"]):
             curve = step.parameters["amount"]
             times = [t for t, amount in curve if amount > 0.0]
             most = max(amount for _, amount in curve)
@@ -57,7 +59,18 @@ def mended(motion: Motion) -> tuple[str, ...]:
                 f"{what.replace('_', ' ')}: up to {100 * most:.0f} % of the original between {times[0]:.1f} "
                 f"and {times[-1]:.1f} s ({step.parameters['why']})"
             )
+    if said and _share(motion) > 0.5:
+        said.append("most of this edit was taken back; --no-safe keeps it, with what breaks")
     return tuple(said)
+
+
+def _share(motion: Motion) -> float:
+    """Return how much of the original came back, mean over limbs and time."""
+    steps = (s for s in motion.history if s.edit == "restore" and s.parameters["why"])
+    return sum(
+        float(np.mean(evaluate(s.parameters["amount"], motion.times))) * len(s.parts or LIMBS) / len(LIMBS)
+        for s in steps
+    )
 
 
 class _Search:

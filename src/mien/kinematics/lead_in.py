@@ -39,9 +39,13 @@ def lead_in(motion: Motion) -> int:
 
 
 def _turns(rotations: Array) -> Array:
-    """Return how far the joints turn from frame to frame (T - 1,), on average, in radians."""
+    """Return how far the joints turn from frame to frame (T - 1,), on average, in radians.
+
+    The joint that turns most is left out: one that flips over for a frame is no change of pose.
+    """
     same = np.abs(np.einsum("tji,tji->tj", rotations[1:], rotations[:-1]))
-    return 2.0 * np.arccos(np.minimum(same, 1.0)).mean(axis=1)
+    turn = 2.0 * np.arccos(np.minimum(same, 1.0))
+    return (turn.sum(axis=1) - turn.max(axis=1)) / max(turn.shape[1] - 1, 1)
 
 
 def _starts_at_rest(motion: Motion, frames: int) -> bool:

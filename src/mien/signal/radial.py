@@ -14,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 
+from ..errors import MienError
 from ..typing import Array
 
 Kind = Literal["gaussian", "multiquadric"]
@@ -79,7 +80,7 @@ def near(
 def through(points: Array, values: Array) -> Radial:
     """Return the multiquadric function that has ``values`` (N, P) at ``points`` (N, D).
 
-    The width is the mean distance of the points. Raises ``ValueError`` where two points are the same or all
+    The width is the mean distance of the points. Raises ``MienError`` where two points are the same or all
     lie on one line, plane, ..., so that no linear part is determined.
     """
     points, values = (np.atleast_2d(np.asarray(a, float)) for a in (points, values))
@@ -91,7 +92,9 @@ def through(points: Array, values: Array) -> Radial:
     system[:count, count:] = corner
     system[count:, :count] = corner.T
     if np.linalg.matrix_rank(system) < len(system):
-        raise ValueError(f"{count} points in {size} dimensions do not determine a function through them")
+        raise MienError(
+            f"{count} points in {size} dimensions do not determine a function; give others that differ in all"
+        )
     found = np.linalg.solve(system, np.concatenate([values, np.zeros((size + 1, values.shape[1]))]))
     radial, constant, slope = found[:count], found[count], found[count + 1 :]
     return Radial("multiquadric", points, sigma, constant, slope, radial)

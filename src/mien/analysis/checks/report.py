@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import MienError
 from ...kinematics.contacts import spans
 from ...motion import Motion, require_motion
 from ...typing import Array, Mask
@@ -131,8 +132,22 @@ def check(motion: Motion, *, against: Motion | None = None, only: Sequence[str] 
     for what is no motion, ``BodyError`` where no body is found.
     """
     source = require_motion(against) if against is not None else require_motion(motion).reference
+    if source is not None:
+        _require_same_joints(motion, source)
     before = Scene.of(source) if source is not None else None
     return compare_scenes(Scene.of(motion, source=before), before, only=only)
+
+
+def _require_same_joints(motion: Motion, source: Motion) -> None:
+    here, there = motion.skeleton.names, source.skeleton.names
+    if here != there:
+        other = sorted(set(here) ^ set(there)) or [
+            f"{a} for {b}" for a, b in zip(here, there, strict=True) if a != b
+        ]
+        raise MienError(
+            f"the clip and its source have different skeletons: {len(other)} joints are not the same "
+            f"({', '.join(other[:6])}); compare with the clip it was made from"
+        )
 
 
 def measured(source: Scene) -> dict[str, Measured]:
@@ -192,9 +207,8 @@ def _marks(bad: Mask, over: Array, parts: tuple[str, ...], scene: Scene) -> tupl
         some = np.flatnonzero(bad[start:stop].any(axis=0))
         worst = start + int(np.argmax(over[start:stop].max(axis=1)))
         names = tuple(parts[i] for i in some[np.argsort(-over[start:stop, some].max(axis=0))])
-        out.append(
-            Mark(float(times[start] - half), float(times[stop - 1] + half), float(times[worst]), names)
-        )
+        begin, end = max(float(times[start] - half), float(times[0])), float(times[stop - 1] + half)
+        out.append(Mark(begin, min(end, float(times[-1])), float(times[worst]), names))
     return tuple(out)
 
 
