@@ -1,8 +1,8 @@
 """Laban's four Effort factors of the whole body, from its moving masses: Weight, Time, Space and Flow.
 
-C. Larboulette & S. Gibet, *A review of computable expressive descriptors of human motion*, MOCO 2015, section 5,
-with the segment masses of de Leva (1996) as weights. Lengths are divided by the standing height and masses by
-the body's, so that people of any size can be compared; derivatives are per second after a low-pass at 6 Hz.
+C. Larboulette & S. Gibet, *A review of computable expressive descriptors of human motion*, MOCO 2015, with
+the segment masses of de Leva (1996) as weights. Lengths are divided by the standing height and masses by the
+body's, so that people of any size can be compared; derivatives are per second after a low-pass at 6 Hz.
 
 Space is told as directness, the inverse of their quotient of way and displacement: theirs grows beyond all
 bounds where a limb comes back to where it was.
@@ -23,12 +23,13 @@ from ..signal.derivatives import derivatives
 from ..typing import Array
 from .windows import STRIDE, around, window_frames, window_starts, windowed
 
-# Name -> what it says and its unit; the order of the columns.
+# Name -> what it is told by, and its unit; the order of the columns. Low to high: light to strong, sustained
+# to sudden, indirect to direct, bound to free.
 EFFORT: Mapping[str, tuple[str, str]] = {
-    "weight": ("kinetic energy: light to strong", "heights^2/s^2"),
-    "time": ("acceleration: sustained to sudden", "heights/s^2"),
-    "space": ("directness of the way: indirect to direct", "share"),
-    "flow": ("jerk: bound to free", "heights/s^3"),
+    "weight": ("kinetic energy", "heights^2/s^2"),
+    "time": ("acceleration", "heights/s^2"),
+    "space": ("directness", "share"),
+    "flow": ("jerk", "heights/s^3"),
 }
 _STILL = 1e-9  # heights: a shorter way is none
 
@@ -38,9 +39,9 @@ class Effort:
     """The Effort factors of one motion, all finite.
 
     ``times`` (T,) in seconds, without a T-pose at the start. ``frames`` (T, 4) in the order of ``EFFORT``:
-    ``weight = sum m_i |v_i|^2 / 2``, ``time = sum m_i |a_i|`` and ``flow = sum m_i |jerk_i|`` of the frame, and
-    ``space = sum m_i |displacement_i| / sum m_i way_i`` of the window of 1.17 s around it, 0 to 1, 1 for a body
-    at rest. ``clip`` (4,): mean over all windows. ``frame_time`` in seconds.
+    ``weight = sum m_i |v_i|^2 / 2``, ``time = sum m_i |a_i|`` and ``flow = sum m_i |jerk_i|`` of the frame,
+    and ``space = sum m_i |displacement_i| / sum m_i way_i`` of the window of 1.17 s around it, 0 to 1, 1 for
+    a body at rest. ``clip`` (4,): mean over all windows. ``frame_time`` in seconds.
     """
 
     times: Array
@@ -56,7 +57,7 @@ class Effort:
     def windows(self, *, stride: float = STRIDE) -> Array:
         """Return the factors (W, 4) of windows of 1.17 s, ``stride`` seconds apart.
 
-        The largest ``weight``, the mean ``time`` and ``flow``, as in the paper, and the window's own ``space``.
+        The largest ``weight``, the mean ``time`` and ``flow`` as in the paper, the window's own ``space``.
         Raises ``MienError`` for a stride that is not above 0.
 
         >>> from mien.samples import walk

@@ -1,23 +1,23 @@
 """Laban features of a motion: 37 in every frame, 121 of every 1.17 seconds and of the clip.
 
-A. Aristidou, Q. Zeng, E. Stavrakis, K. Yin, D. Cohen-Or, Y. Chrysanthou, B. Chen, *Emotion control of unstructured
-dance movements*, SCA 2017, table 1 (see ``laban_table``). The paper names the features; how each is worked out
-is said here. Lengths are divided by the body's standing height, derivatives are per second after a low-pass
-at 6 Hz: size, unit, place, heading and frame rate of a clip do not matter. A T-pose before the motion is left
-out. The paper's scaling to [0, 1] needs the clips a model was trained on and is part of the model.
+A. Aristidou, Q. Zeng, E. Stavrakis, K. Yin, D. Cohen-Or, Y. Chrysanthou, B. Chen, *Emotion control of
+unstructured dance movements*, SCA 2017, table 1 (see ``laban_table``). The paper names the features; how each
+is worked out is said here. Lengths are divided by the body's standing height, derivatives are per second
+after a low-pass at 6 Hz: size, unit, place, heading and frame rate of a clip do not matter. A T-pose before the
+motion is left out. The paper's scaling to [0, 1] needs the clips a model was trained on: part of the model.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import MienError
+from ..errors import MienError, unknown
 from ..kinematics.body import Body
 from ..kinematics.landmarks import INDEX, LANDMARKS, LIMB, TRUNK, landmarks
 from ..kinematics.lead_in import lead_in
 from ..motion import Motion
 from ..signal.derivatives import derivatives
-from ..typing import Array
+from ..typing import Array, Integers
 from .hulls import hull_size, hull_volumes
 from .laban_table import DERIVED, FEATURES, ZONES, Derived
 from .windows import STRIDE, WINDOW, around, window_frames, window_starts, windowed
@@ -65,10 +65,10 @@ class Row:
 class Features:
     """The Laban features of one motion, all finite.
 
-    ``times`` (T,) seconds of the frames, without a T-pose at the start. ``frames`` (T, 37): the basic features
-    in the order of ``FEATURES``; f15, f35, f36 and f37 are those of the window around the frame. ``zones``
-    (T, 3): the share of the hands above the head, from there down to the chest, and below it. ``clip`` (121,):
-    the derived features, mean over all windows. ``frame_time`` in seconds.
+    ``times`` (T,) seconds of the frames, without a T-pose at the start. ``frames`` (T, 37): the basic
+    features in the order of ``FEATURES``; f15, f35, f36 and f37 are those of the window around the frame.
+    ``zones`` (T, 3): the share of the hands above the head, from there down to the chest, and below it.
+    ``clip`` (121,): the derived features, mean over all windows. ``frame_time`` in seconds.
     """
 
     times: Array
@@ -83,8 +83,6 @@ class Features:
     def __getitem__(self, name: str) -> float:
         """Return a derived feature of the clip by its name, such as ``hands_distance_mean``."""
         if name not in self.names:
-            from ..errors import unknown
-
             raise MienError(unknown("feature", name, self.names))
         return float(self.clip[self.names.index(name)])
 
@@ -173,11 +171,11 @@ def _fill_effort(frames: Array, points: Array, frame_time: float) -> Array:
 
 
 def _peaks(braking: Array) -> Array:
-    """Return 1 (T,) where the braking has a peak above ``BRAKING``, 0 elsewhere."""
+    """Return 1 (T,) where the braking has a peak above ``BRAKING`` that stands out as much, 0 elsewhere."""
     from scipy.signal import find_peaks
 
     out = np.zeros(len(braking))
-    out[find_peaks(braking, height=BRAKING)[0]] = 1.0
+    out[find_peaks(braking, height=BRAKING, prominence=BRAKING)[0]] = 1.0
     return out
 
 
@@ -200,7 +198,7 @@ def _zones(height: Array) -> Array:
 def _fill_space(frames: Array, points: Array, velocity: Array, ground: Array, frame_time: float) -> None:
     """Fill in f35 to f37; ``ground`` (2, 3) are the axes of the floor.
 
-    Hulls of a window are taken of some 30 frames a second, ``STRIDE`` apart, and run in straight lines between.
+    Hulls of a window are of some 30 frames a second, ``STRIDE`` apart, and run in straight lines between.
     """
     frames[:, 34] = _mean_around(_length(velocity @ ground.T), frame_time) * WINDOW
     step = max(1, round(1.0 / (RATE * frame_time)))
@@ -216,7 +214,7 @@ def _fill_space(frames: Array, points: Array, velocity: Array, ground: Array, fr
         frames[:, column] = np.interp(np.arange(len(points)), middle, values)
 
 
-def _starts(frames: int, length: int, frame_time: float, stride: float) -> Array:
+def _starts(frames: int, length: int, frame_time: float, stride: float) -> Integers:
     if not (np.isfinite(stride) and stride > 0):
         raise MienError(f"stride must be above 0 seconds, got {stride}")
     return window_starts(frames, length, frame_time, stride=stride)

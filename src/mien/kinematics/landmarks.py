@@ -26,7 +26,7 @@ _ROLES = {"hand": "wrist", "foot": "ankle"}  # the joint that stands for a hand 
 
 @dataclass(frozen=True, eq=False)
 class Landmarks:
-    """Where the places are: ``points`` (T, 19, 3) in world axes and the clip's unit, in the order of ``LANDMARKS``.
+    """Where the places are: ``points`` (T, 19, 3), world axes, clip's unit, in the order of ``LANDMARKS``.
 
     ``rotations`` (T, J, 4) and ``positions`` (T, J, 3) are the world transforms they come from.
     """
@@ -98,7 +98,7 @@ def _hand(motion: Motion, body: Body, side: str, rotations: Array, positions: Ar
 
 
 def _head(motion: Motion, body: Body, top: int | None, rotations: Array, positions: Array) -> Array:
-    """Return the head (T, 3) of a body without one: 0.2 leg lengths below its top, where heads have joints."""
+    """Return the head (T, 3) of a body without one: 0.2 leg lengths below its top, as joints of heads are."""
     joint = body.roles.get("neck", body.roles["hips"] if top is None else top)
     stance = neutral_world(motion, body)[1] @ body.up
     ankles = np.mean([stance[body.roles[f"{side}_ankle"]] for side in SIDES])

@@ -1,4 +1,4 @@
-"""Speed, acceleration and jerk of sampled curves: low-passed, and the same at any frame rate. Frames on axis 0.
+"""Speed, acceleration and jerk of sampled curves, low-passed, the same at any rate. Frames on axis 0.
 
 Differences between neighbouring frames depend on the frame rate: a hand that goes to and fro three times a
 second seems 7 % slower at 30 frames a second than it is. Here the curve is written as the line between its
