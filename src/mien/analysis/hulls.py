@@ -14,8 +14,8 @@ import numpy as np
 
 from ..typing import Array, Integers
 
-NUDGE = 1e-7  # of the points' extent: moves every point a little, so that no four lie in one plane
-FLAT = 1e-5  # of the extent's cube: a smaller hull is flat
+NUDGE = 1e-9  # of the points' extent: moves every point a little, so that no four lie in one plane
+FLAT = 1e-7  # of the extent's cube: a smaller hull is flat
 _BLOCK = 120_000  # tetrahedra worked on at a time, which fit the processor's cache
 
 
@@ -23,7 +23,7 @@ def hull_volumes(points: Array, groups: Sequence[Sequence[int]]) -> Array:
     """Return the volume (T, G) of the convex hull of each group of ``points`` (T, N, 3), frame by frame.
 
     ``V = 1/6 sum over faces of a . (b x c)``, faces oriented outwards: exact but for a nudge of every point
-    by 1e-7 of the extent, which takes ties away. A flat or empty hull, and fewer than four points, give 0.
+    by 1e-9 of the extent, which takes ties away. A flat or empty hull, and fewer than four points, give 0.
     The work grows with ``N^4``: meant for 20 points or fewer.
 
     >>> corners = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]], float)

@@ -3,8 +3,8 @@
 A. Aristidou, Q. Zeng, E. Stavrakis, K. Yin, D. Cohen-Or, Y. Chrysanthou, B. Chen, *Emotion control of
 unstructured dance movements*, SCA 2017, table 1 (see ``laban_table``). The paper names the features; how each
 is worked out is said here. Lengths are divided by the body's standing height, derivatives are per second
-after a low-pass at 6 Hz: size, unit, place, heading and frame rate of a clip do not matter. A T-pose before the
-motion is left out. The paper's scaling to [0, 1] needs the clips a model was trained on: part of the model.
+after a low-pass at 6 Hz: size, unit, place, heading and frame rate of a clip do not matter. A T-pose before
+the motion is left out. The scaling to [0, 1] of the paper needs the clips a model was trained on.
 """
 
 from dataclasses import dataclass
@@ -41,6 +41,7 @@ _DISTANCES = (
     ("head", "pelvis"),
 )
 _RIGHT, _LEFT = (tuple(f"{side}_{place}" for place in LIMB) for side in ("right", "left"))
+_EFFORT = slice(15, 26)  # the columns of f16 to f26
 _LEGS = ("hip", "knee", "foot", "toe")
 # What the hulls of f27, f28 and f31 to f34 hold.
 VOLUMES = (
@@ -220,6 +221,20 @@ def _starts(frames: int, length: int, frame_time: float, stride: float) -> Integ
     return window_starts(frames, length, frame_time, stride=stride)
 
 
+def _crests(frames: Array) -> Array:
+    """Return the features (T, 37) with the peaks of Effort as high as they are between the frames.
+
+    A quick peak has few frames on it at 30 frames a second: the parabola through the highest and its two
+    neighbours tells how high it is, ``b + (c - a)^2 / (8 (2 b - a - c))``.
+    """
+    out = frames.copy()
+    a, b, c = frames[:-2, _EFFORT], frames[1:-1, _EFFORT], frames[2:, _EFFORT]
+    bend = 2.0 * b - a - c
+    peak = (b >= a) & (b >= c) & (bend > 0.0)
+    out[1:-1, _EFFORT] = np.where(peak, b + (c - a) ** 2 / (8.0 * np.where(peak, bend, 1.0)), b)
+    return out
+
+
 def _derive(frames: Array, zones: Array, frame_time: float, stride: float) -> Array:
     """Return the derived features (W, 121) of the basic ones (T, 37) and the zones of the hands (T, 3)."""
     length = window_frames(len(frames), frame_time)
@@ -227,7 +242,7 @@ def _derive(frames: Array, zones: Array, frame_time: float, stride: float) -> Ar
     values = windowed(frames, starts, length)
     mean = values.mean(axis=-1)
     found = {
-        "max": values.max(axis=-1),
+        "max": windowed(_crests(frames), starts, length).max(axis=-1),
         "min": values.min(axis=-1),
         "std": np.sqrt(np.square(values - mean[..., None]).mean(axis=-1)),
         "mean": mean,

@@ -21,6 +21,7 @@ TRUNK = ("pelvis", "spine", "chest", "neck", "head")
 LIMB = ("shoulder", "elbow", "hand", "hip", "knee", "foot", "toe")
 LANDMARKS: tuple[str, ...] = (*TRUNK, *(f"{side}_{place}" for side in SIDES for place in LIMB))
 INDEX: Mapping[str, int] = {name: i for i, name in enumerate(LANDMARKS)}
+HEAD_ABOVE = 0.18  # leg lengths from the middle of the shoulders to the head joint, where both are
 _ROLES = {"hand": "wrist", "foot": "ankle"}  # the joint that stands for a hand or foot
 
 
@@ -46,7 +47,7 @@ def landmarks(motion: Motion, body: Body) -> Landmarks:
     A hand is the wrist joint and a foot the ankle joint. Without a wrist the hand is the forearm's end site
     or, without one, as far from the elbow as people's; without a toe joint the toe is the foot's end site,
     or the ankle. Without a chest the top of the spine is taken, or the middle of the shoulders; without a
-    neck the middle of the shoulders; without a head a point on the neck or chest below the top of the head.
+    neck the middle of the shoulders; without a head a point above the middle of the shoulders that neck or chest carries.
 
     >>> from mien.samples import walk
     >>> motion = walk(seconds=1.0).motion
@@ -98,12 +99,12 @@ def _hand(motion: Motion, body: Body, side: str, rotations: Array, positions: Ar
 
 
 def _head(motion: Motion, body: Body, top: int | None, rotations: Array, positions: Array) -> Array:
-    """Return the head (T, 3) of a body without one: 0.2 leg lengths below its top, as joints of heads are."""
+    """Return the head (T, 3) of a body without one: above the middle of the shoulders, upright on its neck."""
     joint = body.roles.get("neck", body.roles["hips"] if top is None else top)
-    stance = neutral_world(motion, body)[1] @ body.up
-    ankles = np.mean([stance[body.roles[f"{side}_ankle"]] for side in SIDES])
-    rise = ankles + body.height - 0.2 * body.leg_length - 0.08 * body.leg_length - stance[joint]
-    return _carried(motion, body, joint, max(float(rise), 0.0) * body.up, rotations, positions)
+    stance = neutral_world(motion, body)[1]
+    shoulders = 0.5 * (stance[body.roles["left_shoulder"]] + stance[body.roles["right_shoulder"]])
+    place = shoulders + HEAD_ABOVE * body.leg_length * body.up
+    return _carried(motion, body, joint, place - stance[joint], rotations, positions)
 
 
 def _carried(
