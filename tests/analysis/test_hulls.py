@@ -20,7 +20,9 @@ def slow_twin(points: np.ndarray, group: list[int]) -> float:
         return 0.0
 
 
-@pytest.mark.parametrize("extra", [[], [[0.5, 0.5, 0.5]], [[0.5, 0.5, 1.0], [0.0, 0.5, 0.0], [1.0, 1.0, 1.0]]])
+@pytest.mark.parametrize(
+    "extra", [[], [[0.5, 0.5, 0.5]], [[0.5, 0.5, 1.0], [0.0, 0.5, 0.0], [1.0, 1.0, 1.0]]]
+)
 def test_a_unit_cube_whatever_lies_inside_it_or_on_it(extra: list[list[float]]) -> None:
     points = np.concatenate([CUBE, np.array(extra).reshape(-1, 3)])
     found = hull_volumes(points[None], [range(len(points))])

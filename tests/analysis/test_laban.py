@@ -98,8 +98,12 @@ def test_unit_cube(made) -> None:
     floor = body.floor * UP
     corners = [size * np.array([x, y, z]) + floor for x, y, z in product((0.0, 1.0), repeat=3)]
     ends = ("hand", "foot", "shoulder", "hip", "elbow", "knee", "toe")
-    places = {f"{side}_{end}": corners[i % 8] for i, (side, end) in enumerate(product(("left", "right"), ends))}
-    places |= {place: 0.5 * size * np.ones(3) + floor for place in ("pelvis", "spine", "chest", "neck", "head")}
+    places = {
+        f"{side}_{end}": corners[i % 8] for i, (side, end) in enumerate(product(("left", "right"), ends))
+    }
+    places |= {
+        place: 0.5 * size * np.ones(3) + floor for place in ("pelvis", "spine", "chest", "neck", "head")
+    }
     found = features(made.placed(motion, body, places), body=body)
     assert found["volume_of_all_joints_mean"] == pytest.approx(1.0, rel=1e-6)
     assert found["total_volume"] == pytest.approx(1.0, rel=1e-6)
@@ -138,7 +142,9 @@ def test_distances_between_places(made) -> None:
     for name, (a, b) in pairs.items():
         expected = np.linalg.norm(marks[a] - marks[b], axis=1) / height
         np.testing.assert_allclose(column(found, name), expected, rtol=1e-12)
-    assert column(found, "hip_ground_distance")[0] == pytest.approx((marks["pelvis"][0, 1] - body.floor) / height)
+    assert column(found, "hip_ground_distance")[0] == pytest.approx(
+        (marks["pelvis"][0, 1] - body.floor) / height
+    )
 
 
 def slow_frames(motion) -> np.ndarray:

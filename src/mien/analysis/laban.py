@@ -125,7 +125,7 @@ def features(motion: Motion, *, body: Body | None = None) -> Features:
 
     >>> from mien.samples import walk
     >>> round(features(walk(seconds=3.0).motion)["pelvis_speed_mean"], 2)
-    0.71
+    0.73
     """
     body = body or Body.of(motion)
     start = lead_in(motion)

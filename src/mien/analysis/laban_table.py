@@ -87,11 +87,11 @@ def _effort() -> list[Feature]:
             15,
             "deceleration_peaks",
             "Effort",
-            "a window",
+            "per window",
             49,
             WHOLE,
-            "how often the pelvis brakes: lows of the rate of change of its speed that lie below and stand "
-            "out by 0.5 heights/s^2, counted in the window",
+            "how often the pelvis brakes: lows of the rate of change of its speed, 0.5 heights/s^2 deep or "
+            "more, counted in the window",
             {"window": 6},
         )
     ]

@@ -47,7 +47,7 @@ def landmarks(motion: Motion, body: Body) -> Landmarks:
     A hand is the wrist joint and a foot the ankle joint. Without a wrist the hand is the forearm's end site
     or, without one, as far from the elbow as people's; without a toe joint the toe is the foot's end site,
     or the ankle. Without a chest the top of the spine is taken, or the middle of the shoulders; without a
-    neck the middle of the shoulders; without a head a point above the middle of the shoulders that neck or chest carries.
+    neck the middle of the shoulders; without a head a point above that, which neck or chest carries.
 
     >>> from mien.samples import walk
     >>> motion = walk(seconds=1.0).motion
@@ -99,7 +99,7 @@ def _hand(motion: Motion, body: Body, side: str, rotations: Array, positions: Ar
 
 
 def _head(motion: Motion, body: Body, top: int | None, rotations: Array, positions: Array) -> Array:
-    """Return the head (T, 3) of a body without one: above the middle of the shoulders, upright on its neck."""
+    """Return the head (T, 3) of a body without one: above its shoulders, carried by the neck."""
     joint = body.roles.get("neck", body.roles["hips"] if top is None else top)
     stance = neutral_world(motion, body)[1]
     shoulders = 0.5 * (stance[body.roles["left_shoulder"]] + stance[body.roles["right_shoulder"]])
