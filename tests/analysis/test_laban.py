@@ -1,19 +1,23 @@
 """Laban features: known truth, slow twins, and what must not matter."""
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.spatial import ConvexHull, QhullError
 
 from mien import apply, features, samples
 from mien.analysis.laban import MOVING, VOLUMES
-from mien.analysis.laban_table import DERIVED, FEATURES
+from mien.analysis.laban_table import DERIVED, FEATURES, SELECTED
 from mien.analysis.windows import WINDOW
 from mien.errors import MienError
 from mien.kinematics.body import Body
 from mien.kinematics.landmarks import LANDMARKS, landmarks
 from mien.recipe import Step
+from mien.rotations import quaternion
 
 NAMES = [f.name for f in FEATURES]
 CLIPS = ("walk", "tired_walk", "knock", "wave", "punch", "jump", "turn", "pendulum")
@@ -245,6 +249,43 @@ def test_unit_axes_heading_and_skeleton_do_not_matter(form) -> None:
     close(one, other, 1e-5 if "skeleton" not in form else 0.02)
 
 
+@settings(max_examples=20)
+@given(st.integers(0, 10_000), st.floats(-3.0, 3.0), st.floats(0.01, 100.0), st.integers(1, 80))
+def test_any_movement_turned_and_scaled(seed: int, yaw: float, scale: float, frames: int) -> None:
+    """Limbs flung about at random: numbers stay in range, and heading and size change none of them."""
+    rng = np.random.default_rng(seed)
+    still = samples.still(seconds=0.0, fps=30.0).motion
+    body, joints = Body.of(still), len(still.skeleton)
+    t = np.arange(frames)[:, None, None] / 30.0
+    swing = rng.normal(0.0, 0.4, (joints, 3)) * np.sin(
+        2.0 * np.pi * rng.uniform(0.0, 3.0, (joints, 1)) * t + rng.uniform(0.0, 6.0, (joints, 1))
+    )
+    rotations = quaternion.multiply(
+        np.broadcast_to(still.rotations[0], (frames, joints, 4)), quaternion.exp(swing)
+    )
+    moved = np.repeat(still.translations[:1], frames, axis=0)
+    one = still.with_(rotations=rotations, translations=moved, source=None)
+    turn, root = quaternion.exp(yaw * body.up), body.roles["hips"]
+    turned = rotations.copy()
+    turned[:, root] = quaternion.multiply(turn, turned[:, root])
+    way = scale * moved
+    way[:, root] = quaternion.rotate(turn, way[:, root])
+    skeleton = replace(
+        still.skeleton,
+        offsets=scale * still.skeleton.offsets,
+        end_offsets=scale * still.skeleton.end_offsets,
+        layout=None,
+    )
+    other = still.with_(skeleton=skeleton, rotations=turned, translations=way, source=None)
+    larger = replace(
+        body, height=scale * body.height, leg_length=scale * body.leg_length, floor=scale * body.floor
+    )
+    here, there = features(one, body=body), features(other, body=larger)
+    assert np.isfinite(here.windows()).all()
+    assert (here.frames[:, [i for i in range(37) if i not in (9, 10)]] >= 0.0).all()  # heights may be below 0
+    close(here, there, 1e-5)
+
+
 def test_the_place_does_not_matter(made) -> None:
     motion = samples.knock(seconds=2.0, fps=30.0).motion
     body = Body.of(motion)
@@ -307,6 +348,9 @@ def test_the_table_of_a_clip() -> None:
     assert [row.feature for row in rows] == list(DERIVED)
     assert {row.feature.name: row.value for row in rows} == {name: found[name] for name in found.names}
     np.testing.assert_allclose(found.clip, found.windows().mean(axis=0))
+    assert found.selected.tolist() == [found[d.name] for d in SELECTED]
+    with pytest.raises(MienError, match=r"mien\.load"):
+        features("walk.bvh")
     with pytest.raises(MienError, match="hands_distance_mean"):
         found["hands_distance_men"]
     with pytest.raises(MienError, match="stride"):

@@ -18,7 +18,7 @@ from ..kinematics.body import Body
 from ..kinematics.fk import world
 from ..kinematics.lead_in import lead_in
 from ..kinematics.mass import mass_model
-from ..motion import Motion
+from ..motion import Motion, require_motion
 from ..signal.derivatives import derivatives
 from ..typing import Array
 from .windows import STRIDE, around, window_frames, window_starts, windowed
@@ -78,6 +78,7 @@ def effort(motion: Motion, *, body: Body | None = None) -> Effort:
     >>> bool(effort(walk(seconds=2.0).motion).clip[0] > effort(still(seconds=2.0).motion).clip[0])
     True
     """
+    motion = require_motion(motion)
     body = body or Body.of(motion)
     start = lead_in(motion)
     motion = motion[start:]

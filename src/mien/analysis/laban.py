@@ -15,11 +15,11 @@ from ..errors import MienError, unknown
 from ..kinematics.body import Body
 from ..kinematics.landmarks import INDEX, LANDMARKS, LIMB, TRUNK, landmarks
 from ..kinematics.lead_in import lead_in
-from ..motion import Motion
+from ..motion import Motion, require_motion
 from ..signal.derivatives import derivatives
 from ..typing import Array, Integers
 from .hulls import hull_size, hull_volumes
-from .laban_table import DERIVED, FEATURES, ZONES, Derived
+from .laban_table import DERIVED, FEATURES, SELECTED, ZONES, Derived
 from .windows import STRIDE, WINDOW, around, window_frames, window_starts, windowed
 
 BRAKING = 0.5  # heights a second squared: a slower low of the pelvis' speed is no deceleration peak
@@ -92,6 +92,11 @@ class Features:
         """The names (121) of the derived features, in order."""
         return _NAMES
 
+    @property
+    def selected(self) -> Array:
+        """The selected features (31,) of the clip, in the order of ``SELECTED``."""
+        return self.clip[[d.number - 1 for d in SELECTED]]
+
     def window_times(self, *, stride: float = STRIDE) -> Array:
         """Return the middle (W,) of each of ``windows``, in seconds."""
         length = window_frames(len(self.times), self.frame_time)
@@ -127,6 +132,7 @@ def features(motion: Motion, *, body: Body | None = None) -> Features:
     >>> round(features(walk(seconds=3.0).motion)["pelvis_speed_mean"], 2)
     0.73
     """
+    motion = require_motion(motion)
     body = body or Body.of(motion)
     start = lead_in(motion)
     motion = motion[start:]
