@@ -1,7 +1,7 @@
 """Write what documents say of edits, presets and checks, from the registry and the preset files.
 
 METHODS.md, the facts in docs/methods/*.md, the tables of emotion words in README.md and docs/presets.md, that
-of the checks in docs/checks.md.
+of the checks in docs/checks.md, that of the Laban features in docs/laban.md.
 ``python scripts/methods.py`` writes them; with ``--check`` it only says which are out of date. Change the
 edit or the preset, then run this.
 """
@@ -12,6 +12,7 @@ from shlex import quote
 
 import mien.edits
 from mien.analysis.checks.report import CHECKS
+from mien.analysis.laban_table import COMPONENTS, FEATURES, Feature
 from mien.cli.flags import flag_name
 from mien.edits.registry import EDITS, Edit, Parameter
 from mien.emotion.presets import PRESETS, preset
@@ -57,7 +58,7 @@ def command(edit: Edit) -> str:
     flags = [f"{flag} {value}" for flag, value in given.items()]
     own = flag_name(edit.name)
     if not flags and edit.kind == "repair":
-        return "mien edit walk.bvh --emotion sad   # repairs follow every pose edit by themselves"
+        return f"mien edit walk.bvh --emotion sad   # {edit.name} follows the edits of a preset"
     return f"mien edit walk.bvh {' '.join(flags) or own}"
 
 
@@ -178,6 +179,27 @@ def checks() -> list[str]:
     return head + rows
 
 
+def laban() -> list[str]:
+    """Return the tables of the Laban features, one for each component."""
+    lines = []
+    for component in COMPONENTS:
+        lines += [f"## {component}", "", "| f | feature | what it is | unit | derived |"]
+        lines += ["| --- | --- | --- | --- | --- |"]
+        lines += [_laban_row(f) for f in FEATURES if f.component == component]
+        lines.append("")
+    return ["Of the derived features, the **selected** ones are bold.", "", *lines[:-1]]
+
+
+def _laban_row(feature: Feature) -> str:
+    derived = [
+        f"{f'**{name}**' if name in feature.selected else name} {feature.first + i}"
+        for i, name in enumerate(feature.statistics)
+    ]
+    shown = ", ".join(derived).replace("_", " ")
+    about = _cell(feature.definition)
+    return f"| {feature.number} | `{feature.name}` | {about} | {feature.unit} | {shown} |"
+
+
 def filled(written: str, made: list[str]) -> str:
     """Return a document with the part between the marks brought up to date; without marks, added."""
     block = "\n".join([BEGIN, "", *made, "", END])
@@ -191,6 +213,7 @@ def texts() -> dict[Path, str]:
     """Return every generated file and what it should hold."""
     made = {ROOT / "README.md": words(own=True), ROOT / "docs" / "presets.md": evidence()}
     made[ROOT / "docs" / "checks.md"] = checks()
+    made[ROOT / "docs" / "laban.md"] = laban()
     for name, edit in EDITS.items():
         made[ROOT / "docs" / "methods" / f"{name}.md"] = [
             *facts(edit, up="../../"),

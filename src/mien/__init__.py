@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .analysis.checks.report import check as check
     from .analysis.compare import before_after as before_after
     from .analysis.compare import compare as compare
+    from .analysis.laban import features as features
     from .emotion.files import read_recipe as read_recipe
     from .emotion.files import write_recipe as write_recipe
     from .emotion.mix import mixed as mixed
@@ -59,6 +60,7 @@ _HOME = {
     "blend": ".styles.multitarget",
     "compare": ".analysis.compare",
     "edit": ".emotion.resolve",
+    "features": ".analysis.laban",
     "grid": ".styles.grid",
     "load": ".formats",
     "mixed": ".emotion.mix",

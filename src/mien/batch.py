@@ -1,18 +1,20 @@
-"""Edit many files: one job a file, in this process or several, each failure kept to its own file."""
+"""Edit or measure many files, in this process or several, each failure kept to its own file."""
 
 import hashlib
 import os
 import re
 import signal
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
+from .analysis.effort import Effort, effort
+from .analysis.laban import Features, features
 from .curve import Varying, values
 from .edits.registry import EDITS
 from .emotion.files import read_provenance, sidecar_of
@@ -23,6 +25,9 @@ from .formats import FORMATS, files, load, save
 from .kinematics.roles import known_roles
 from .motion import Motion
 from .recipe import Recipe
+
+T = TypeVar("T")
+R = TypeVar("R")
 
 
 @dataclass(frozen=True)
@@ -59,12 +64,16 @@ class Outcome:
 
 def edit_files(jobs: Sequence[Job], *, workers: int = 1) -> Iterator[Outcome]:
     """Do the jobs and yield what became of each, in the order given; ``workers`` processes share them."""
-    if workers <= 1 or len(jobs) < 2:
-        yield from map(edit_file, jobs)
+    return _shared(edit_file, jobs, workers)
+
+
+def _shared(work: Callable[[T], R], items: Sequence[T], workers: int) -> Iterator[R]:
+    if workers <= 1 or len(items) < 2:
+        yield from map(work, items)
         return
-    pool = ProcessPoolExecutor(min(workers, len(jobs)), initializer=_leave_interrupts_to_parent)
+    pool = ProcessPoolExecutor(min(workers, len(items)), initializer=_leave_interrupts_to_parent)
     try:
-        yield from pool.map(edit_file, jobs)
+        yield from pool.map(work, items)
     finally:
         pool.shutdown(cancel_futures=True)
 
@@ -85,6 +94,47 @@ def edit_file(job: Job) -> Outcome:
             raise
         return Outcome(job, error=sentence(error), unexpected=True)
     return Outcome(job, len(motion), motion.duration, tuple(step.edit for step in motion.history), notes)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One file to measure. ``read`` are the options of ``load``, ``body`` the roles of a map file."""
+
+    source: Path
+    read: Mapping[str, Any] = field(default_factory=dict)
+    body: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """What was measured in a file, or the sentence that says what went wrong."""
+
+    source: Path
+    frames: int = 0
+    duration: float = 0.0
+    features: Features | None = None
+    effort: Effort | None = None
+    error: str = ""
+    unexpected: bool = False
+
+
+def analyse_files(readings: Sequence[Reading], *, workers: int = 1) -> Iterator[Analysis]:
+    """Measure files and yield what was found in each, in the order given, shared by ``workers`` processes."""
+    return _shared(analyse_file, readings, workers)
+
+
+def analyse_file(reading: Reading) -> Analysis:
+    """Read one file and work out its Laban features and Effort factors."""
+    try:
+        motion = opened(reading.source, body=reading.body, **reading.read)
+        found = features(motion), effort(motion)
+    except (MienError, OSError, MemoryError) as error:
+        return Analysis(reading.source, error=sentence(error))
+    except Exception as error:
+        if os.environ.get("MIEN_DEBUG"):
+            raise
+        return Analysis(reading.source, error=sentence(error), unexpected=True)
+    return Analysis(reading.source, len(motion), motion.duration, *found)
 
 
 def edited(job: Job) -> tuple[Motion, Motion]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from .analyze import analyze
 from .blend import blend
 from .check import check
 from .demo import demo
@@ -22,6 +23,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     grid,
     blend,
     presets,
+    analyze,
     diff,
     check,
     render,

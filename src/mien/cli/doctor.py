@@ -10,7 +10,7 @@ from . import arguments as a
 from .report import show_json, show_table
 
 NEEDED = ("numpy", "scipy", "typer", "rich", "pillow", "tomli-w")
-OPTIONAL = {"av": "MP4 films"}
+OPTIONAL = {"av": "MP4 films", "pyarrow": "Parquet tables"}
 
 
 @dataclass(frozen=True)

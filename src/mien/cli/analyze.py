@@ -1,0 +1,207 @@
+"""``mien analyze``: what a clip's movement is like, in the terms of Laban."""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..errors import MienError, unknown
+from . import arguments as a
+from .report import complain, located, note, progress, show_json, show_table
+
+if TYPE_CHECKING:
+    from ..analysis.laban import Features
+    from ..batch import Analysis
+
+PER = ("clip", "window", "frame")
+BESIDE = 4  # clips in one table for a person
+
+
+def analyze(
+    clips: a.Clips,
+    features: Annotated[
+        bool, typer.Option("--features", help="Every Laban feature, as a table (CSV) for other programs.")
+    ] = False,
+    per: Annotated[
+        str,
+        typer.Option(help="One line of the table for each clip, window (of 1.17 seconds) or frame."),
+    ] = "clip",
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="The .csv or .parquet file for the table.")
+    ] = None,
+    plot: Annotated[Path | None, typer.Option(help="A .png picture of the features over time.")] = None,
+    jobs: Annotated[
+        int, typer.Option("--jobs", "-j", help="Processes to share the clips; 0 takes every core.")
+    ] = 0,
+    as_json: a.Json = False,
+    force: a.Force = False,
+    fps: a.Fps = None,
+    salvage: a.Salvage = False,
+    map_file: a.MapFile = None,
+) -> None:
+    """Say how clips move: body, effort, shape and space after Laban, in sizes of the body.
+
+    Prints the 31 features that tell emotions apart (Aristidou et al. 2017), --features writes all of them.
+
+    mien analyze walk.bvh
+
+    mien analyze takes/ --features -o features.csv
+
+    mien analyze walk.bvh --plot walk_features.png
+    """
+    from ..batch import Reading, analyse_files
+    from .inputs import expand
+
+    found = [clip.path for clip in expand(clips)]
+    per = _checked(per, features or out is not None)
+    _refuse(found, out, plot, force)
+    read, body = {"fps": fps, "salvage": salvage}, a.read_map(map_file)
+    work = analyse_files([Reading(path, read, body) for path in found], workers=jobs or os.cpu_count() or 1)
+    done = list(progress(work, total=len(found), doing="analysing"))
+    good = [analysis for analysis in done if not analysis.error]
+    if plot and good:
+        _draw(good[0], plot)
+    if good or as_json:
+        _say(good, features, per, out, plot, as_json)
+    _end(done)
+
+
+def _checked(per: str, table: bool) -> str:
+    if per not in PER:
+        raise MienError("--per: " + unknown("line of a table for each", per, PER))
+    if per != "clip" and not table:
+        raise MienError(f"--per {per} goes with --features")
+    return per
+
+
+def _refuse(found: Sequence[Path], out: Path | None, plot: Path | None, force: bool) -> None:
+    """Raise ``MienError`` for a file that cannot or must not be written, before any work is done."""
+    from ..formats import files
+    from .inputs import refuse_existing
+    from .tables import checked_table
+
+    if out:
+        checked_table(out)
+    if plot:
+        if plot.suffix.lower() != ".png":
+            raise MienError(f"{plot}: a picture is .png")
+        if len(found) > 1:
+            raise MienError(f"--plot shows one clip, but there are {len(found)}; name one")
+        files.check_folder(plot.parent)
+    if not force:
+        refuse_existing([file for file in (out, plot) if file])
+
+
+def _draw(analysis: "Analysis", target: Path) -> None:
+    from ..analysis.laban_table import FEATURES
+    from ..render.curves import Curve, curves
+    from .render import save_picture
+
+    found = _features(analysis)
+    columns = zip(FEATURES, found.frames.T, strict=True)
+    panels = [(f.component, Curve(f.name.replace("_", " "), f.unit, values)) for f, values in columns]
+    groups = {name: [curve for group, curve in panels if group == name] for name, _ in panels}
+    target.parent.mkdir(parents=True, exist_ok=True)
+    save_picture(curves(found.times, groups, title=analysis.source.name), target)
+
+
+def _say(
+    good: Sequence["Analysis"], every: bool, per: str, out: Path | None, plot: Path | None, as_json: bool
+) -> None:
+    """Write the table to its file or to stdout; without one, say what a person can read."""
+    from .tables import as_csv, write_table
+
+    if out:
+        write_table(out, _columns(good, per))
+        typer.echo(str(out))
+    elif as_json:
+        show_json([_as_data(analysis, every, per) for analysis in good])
+    elif every:
+        typer.echo(as_csv(_columns(good, per)), nl=False)
+    elif not plot:
+        for start in range(0, len(good), BESIDE):
+            _show(good[start : start + BESIDE])
+    if plot and not as_json:
+        typer.echo(str(plot))
+
+
+def _features(analysis: "Analysis") -> "Features":
+    if analysis.features is None:
+        raise MienError(analysis.error)
+    return analysis.features
+
+
+def _rows(analysis: "Analysis", per: str) -> dict[str, list[Any]]:
+    """Return the columns of one clip: the file, the time in seconds, and the features."""
+    from ..analysis.laban_table import FEATURES
+
+    found = _features(analysis)
+    if per == "clip":
+        names, values, times = found.names, found.clip[None], [analysis.duration]
+    elif per == "window":
+        names, values, times = found.names, found.windows(), found.window_times().tolist()
+    else:
+        names, values, times = tuple(f.name for f in FEATURES), found.frames, found.times.tolist()
+    first: dict[str, list[Any]] = {"file": [str(analysis.source)] * len(times)}
+    first |= {"duration" if per == "clip" else "time": times}
+    return first | dict(zip(names, values.T.tolist(), strict=True))
+
+
+def _columns(good: Sequence["Analysis"], per: str) -> dict[str, list[Any]]:
+    """Return the columns of all clips, one below the other."""
+    parts = [_rows(analysis, per) for analysis in good]
+    return {name: [value for part in parts for value in part[name]] for name in parts[0]}
+
+
+def _as_data(analysis: "Analysis", every: bool, per: str) -> dict[str, Any]:
+    from ..analysis.laban_table import SELECTED
+
+    found = _features(analysis)
+    about = {"file": str(analysis.source), "frames": analysis.frames, "seconds": analysis.duration}
+    if every and per != "clip":
+        rows = _rows(analysis, per)
+        return about | {"times": rows.pop("time"), "features": {k: v for k, v in rows.items() if k != "file"}}
+    names = found.names if every else [d.name for d in SELECTED]
+    return about | {"features": {name: found[name] for name in names}, "effort": _effort(analysis)}
+
+
+def _effort(analysis: "Analysis") -> dict[str, float]:
+    found = analysis.effort
+    return dict(zip(found.names, found.clip.tolist(), strict=True)) if found else {}
+
+
+def _show(good: Sequence["Analysis"]) -> None:
+    """Print the selected features, and the Effort factors, of a few clips beside each other."""
+    from ..analysis.effort import EFFORT
+    from ..analysis.laban_table import COMPONENTS, SELECTED
+
+    rows: list[tuple[str, ...]] = []
+    for component in COMPONENTS:
+        rows.append((component.upper(), "", *[""] * len(good)))
+        for d in (d for d in SELECTED if d.feature.component == component):
+            values = [_short(_features(analysis)[d.name]) for analysis in good]
+            rows.append((f"  {d.name.replace('_', ' ')}", d.feature.unit, *values))
+        rows.append(("", "", *[""] * len(good)))
+    rows.append(("EFFORT OF THE WHOLE BODY", "", *[""] * len(good)))
+    for name, (said, unit) in EFFORT.items():
+        rows.append((f"  {name}: {said}", unit, *[_short(_effort(analysis)[name]) for analysis in good]))
+    show_table(("feature", "unit", *[analysis.source.name for analysis in good]), rows, numbers=2)
+
+
+def _short(value: float) -> str:
+    """Return a number with three digits that count."""
+    return f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}"
+
+
+def _end(done: Sequence["Analysis"]) -> None:
+    """Complain of what failed, and end with the exit code."""
+    failed = [analysis for analysis in done if analysis.error]
+    for analysis in failed:
+        complain(located(analysis.source, analysis.error))
+    if not failed:
+        return
+    if len(done) > 1:
+        note(f"{len(done) - len(failed)} of {len(done)} clips analysed, {len(failed)} failed")
+    raise typer.Exit(2 if len(failed) == len(done) and not any(f.unexpected for f in failed) else 1)

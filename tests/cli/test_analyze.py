@@ -1,0 +1,164 @@
+"""``mien analyze``: what it prints, writes and refuses."""
+
+import csv
+import io
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import Result
+
+import mien
+from mien import samples
+from mien.analysis.effort import EFFORT, effort
+from mien.analysis.laban_table import DERIVED, FEATURES, SELECTED
+
+Run = Callable[..., Result]
+ALL = [d.name for d in DERIVED]
+
+
+def rows(text: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def test_a_table_for_a_person(folder: Path, run: Run) -> None:
+    result = run("analyze", "walk.bvh")
+    assert result.exit_code == 0
+    found = mien.features(mien.load("walk.bvh"))
+    for component in ("BODY", "EFFORT", "SHAPE", "SPACE"):
+        assert f"\n{component}\n" in result.stdout
+    for d in SELECTED:
+        line = next(s for s in result.stdout.splitlines() if s.startswith(f"  {d.name.replace('_', ' ')} "))
+        assert float(line.split()[-1]) == pytest.approx(found[d.name], rel=0.006, abs=1e-9)
+    assert "kinetic energy" in result.stdout
+
+
+def test_clips_beside_each_other(folder: Path, run: Run) -> None:
+    result = run("analyze", "walk.bvh", "deeper")
+    head = next(line for line in result.stdout.splitlines() if line.startswith("feature"))
+    assert head.split() == ["feature", "unit", "walk.bvh", "tired_walk.bvh"]
+    speed = next(line for line in result.stdout.splitlines() if "pelvis speed mean" in line)
+    walk, tired = (float(number) for number in speed.split()[-2:])
+    assert tired < walk
+
+
+def test_every_feature_as_csv(folder: Path, run: Run) -> None:
+    result = run("analyze", ".", "--features", "--jobs", "2")
+    table = rows(result.stdout)
+    assert [row["file"] for row in table] == ["brisk.bvh", "deeper/tired_walk.bvh", "walk.bvh"]
+    assert list(table[0]) == ["file", "duration", *ALL]
+    found = mien.features(mien.load("walk.bvh")).clip
+    np.testing.assert_array_equal([float(table[2][name]) for name in ALL], found)
+    alone = run("analyze", ".", "--features", "--jobs", "1")
+    assert alone.stdout == result.stdout
+
+
+def test_windows_and_frames(folder: Path, run: Run) -> None:
+    found = mien.features(mien.load("walk.bvh"))
+    windows = rows(run("analyze", "walk.bvh", "--features", "--per", "window").stdout)
+    assert [float(row["time"]) for row in windows] == found.window_times().tolist()
+    assert float(windows[1]["hands_distance_mean"]) == found.windows()[1, ALL.index("hands_distance_mean")]
+    frames = rows(run("analyze", "walk.bvh", "--features", "--per", "frame").stdout)
+    assert list(frames[0]) == ["file", "time", *(f.name for f in FEATURES)]
+    assert len(frames) == len(found.frames)
+
+
+def test_a_file(folder: Path, run: Run) -> None:
+    result = run("analyze", "walk.bvh", "brisk.bvh", "-o", "new/table.csv")
+    assert (result.exit_code, result.stdout) == (0, "new/table.csv\n")
+    assert Path("new/table.csv").read_text() == run("analyze", "walk.bvh", "brisk.bvh", "--features").stdout
+    again = run("analyze", "walk.bvh", "-o", "new/table.csv")
+    assert again.exit_code == 2
+    assert "--force" in again.stderr
+    assert run("analyze", "walk.bvh", "-o", "new/table.csv", "--force").exit_code == 0
+    assert len(rows(Path("new/table.csv").read_text())) == 1
+
+
+def test_parquet(folder: Path, run: Run) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    assert run("analyze", "walk.bvh", "brisk.bvh", "-o", "table.parquet").stdout == "table.parquet\n"
+    table = parquet.read_table("table.parquet").to_pydict()
+    assert table["file"] == ["walk.bvh", "brisk.bvh"]
+    assert table["hands_distance_mean"][0] == mien.features(mien.load("walk.bvh"))["hands_distance_mean"]
+
+
+def test_parquet_without_pyarrow(folder: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    result = run("analyze", "walk.bvh", "-o", "table.parquet")
+    assert result.exit_code == 2
+    assert result.stderr == (
+        "mien: table.parquet: Parquet needs pyarrow: pip install pyarrow (or write a .csv)\n"
+    )
+    assert not Path("table.parquet").exists()
+
+
+def test_a_picture(folder: Path, run: Run) -> None:
+    from PIL import Image
+
+    result = run("analyze", "walk.bvh", "--plot", "walk.png")
+    assert (result.exit_code, result.stdout) == (0, "walk.png\n")
+    with Image.open("walk.png") as picture:
+        assert picture.width == 1600
+        assert len(np.unique(np.asarray(picture).reshape(-1, 3), axis=0)) > 20
+    both = run("analyze", "walk.bvh", "--plot", "walk.png", "--features", "--force")
+    assert both.stdout.startswith("file,duration,")
+    assert both.stdout.endswith("walk.png\n")
+
+
+def test_json(folder: Path, run: Run) -> None:
+    (found,) = json.loads(run("analyze", "walk.bvh", "--json").stdout)
+    assert found["file"] == "walk.bvh"
+    assert list(found["features"]) == [d.name for d in SELECTED]
+    assert list(found["effort"]) == list(EFFORT)
+    assert found["effort"]["weight"] == effort(mien.load("walk.bvh")).clip[0]
+    (every,) = json.loads(run("analyze", "walk.bvh", "--json", "--features").stdout)
+    assert list(every["features"]) == ALL
+    (frames,) = json.loads(run("analyze", "walk.bvh", "--json", "--features", "--per", "frame").stdout)
+    assert len(frames["times"]) == len(frames["features"]["pelvis_speed"]) == 46
+
+
+def test_a_clip_that_fails_does_not_stop_the_others(folder: Path, run: Run) -> None:
+    Path("bad.bvh").write_text("HIERARCHY\nnothing")
+    result = run("analyze", "bad.bvh", "walk.bvh", "--features")
+    assert result.exit_code == 1
+    assert [row["file"] for row in rows(result.stdout)] == ["walk.bvh"]
+    assert "mien: bad.bvh" in result.stderr
+    assert "1 of 2 clips analysed, 1 failed" in result.stderr
+    alone = run("analyze", "bad.bvh")
+    assert (alone.exit_code, alone.stdout) == (2, "")
+    assert json.loads(run("analyze", "bad.bvh", "--json").stdout) == []
+
+
+def test_a_skeleton_that_is_no_body(folder: Path, run: Run) -> None:
+    Path("rod.bvh").write_text(
+        "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
+        "End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n"
+    )
+    result = run("analyze", "rod.bvh")
+    assert result.exit_code == 2
+    assert "--map" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["walk.bvh", "--per", "windows"], "did you mean 'window'?"),
+        (["walk.bvh", "--per", "frame"], "--per frame goes with --features"),
+        (["walk.bvh", "-o", "table.xlsx"], "a table is .csv or .parquet"),
+        (["walk.bvh", "--plot", "walk.svg"], "a picture is .png"),
+        (["walk.bvh", "brisk.bvh", "--plot", "both.png"], "--plot shows one clip, but there are 2"),
+        (["none.bvh"], "there is no such file"),
+    ],
+)
+def test_what_it_refuses(folder: Path, run: Run, arguments: list[str], said: str) -> None:
+    result = run("analyze", *arguments)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert said in result.stderr
+
+
+def test_one_frame(folder: Path, run: Run) -> None:
+    mien.save(samples.still(seconds=0.0).motion, "one.bvh")
+    assert run("analyze", "one.bvh", "--plot", "one.png", "--features").exit_code == 0
