@@ -28,7 +28,7 @@ CUTS = ((0.0, 0.85), (0.15, 1.0))  # parts of a neutral take that are as neutral
 
 @dataclass(frozen=True)
 class Look:
-    """Family -> features of a clip; of neutral takes also of their ``cuts``; of edits the ``failed`` checks."""
+    """Family -> features of a clip; of neutral takes also of ``cuts``, of edits the ``failed`` checks."""
 
     whole: dict[str, Features]
     seconds: float
