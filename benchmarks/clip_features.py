@@ -39,6 +39,11 @@ class Feature:
     unit: str
     ratio: bool = False
 
+    @property
+    def visible(self) -> float:
+        """Return the difference from which people would see one: 2 degrees, 1 % of a leg, 10 %."""
+        return 0.1 if self.ratio else {"degrees": 2.0, "legs": 0.01}[self.unit]
+
 
 @dataclass(frozen=True)
 class View:
@@ -169,7 +174,8 @@ def _limb_courses(view: View) -> dict[str, tuple[str, list[Array]]]:
         add("knee bend", "degrees", _angle(thigh, shin))
         add("foot height", "legs", ankle[:, 2])
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
-        add("toes out", "degrees", sign * -_yaw(view.ways[f"{side}_ankle"]))
+        outward = sign * view.ways[f"{side}_ankle"][:, 1]  # a foot that points down has no yaw
+        add("toes out", "degrees", _deg(np.arcsin(np.clip(outward, -1, 1))))
     return out
 
 
@@ -258,8 +264,8 @@ def _pitch(way: Array) -> Array:
 
 def _yaw(way: Array, axis: int = 0) -> Array:
     """Return the turn (T,) to the left of a direction that points along ``axis`` when it is not turned."""
-    other = way[:, 1 - axis]
-    return _deg(np.unwrap(np.arctan2(other, way[:, axis])))
+    turn = np.unwrap(np.arctan2(way[:, 1 - axis], way[:, axis]))
+    return _deg(turn - 2 * np.pi * np.round(np.median(turn) / (2 * np.pi)))
 
 
 def _tilt(line: Array) -> Array:
@@ -339,3 +345,8 @@ def difference(
         else:
             out[name] = value - was
     return out
+
+
+def visible(clip: Mapping[str, tuple[float, Feature]]) -> dict[str, float]:
+    """Return for each feature the difference from which people would see one."""
+    return {name: feature.visible for name, (_, feature) in clip.items()}

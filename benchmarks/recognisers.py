@@ -29,6 +29,11 @@ def _filled(differences: Sequence[Difference], names: Sequence[str]) -> Array:
     return np.array([[d.get(name, 0.0) for name in names] for d in differences])
 
 
+def _scale(x: Array, visible: Sequence[float]) -> Array:
+    """Return the usual size of each feature, and no less than what can be seen."""
+    return np.maximum(np.sqrt(np.mean(x * x, axis=0)), visible)
+
+
 @dataclass
 class Planes:
     """Recogniser ``a``."""
@@ -38,11 +43,11 @@ class Planes:
     scale: Array = field(default_factory=lambda: np.ones(1))
     model: Any = None
 
-    def fit(self, differences: Sequence[Difference], styles: Sequence[str]) -> Self:
-        """Learn from acted differences."""
+    def fit(self, differences: Sequence[Difference], styles: Sequence[str], visible: Difference) -> Self:
+        """Learn from acted differences; ``visible`` says from which size on they can be seen."""
         self.names = tuple(sorted(differences[0]))
         x = _filled(differences, self.names)
-        self.scale = np.sqrt(np.mean(x * x, axis=0)) + 1e-9
+        self.scale = _scale(x, [visible[name] for name in self.names])
         self.model = LinearDiscriminantAnalysis(solver="lsqr", shrinkage=SHRINKAGE, priors=_even(styles))
         self.model.fit(x / self.scale, np.array(styles))
         return self
@@ -69,11 +74,11 @@ class Kernel:
     styles: tuple[str, ...] = ()
     model: Any = None
 
-    def fit(self, differences: Sequence[Difference], styles: Sequence[str]) -> Self:
-        """Learn from acted differences."""
+    def fit(self, differences: Sequence[Difference], styles: Sequence[str], visible: Difference) -> Self:
+        """Learn from acted differences; ``visible`` says from which size on they can be seen."""
         self.names, self.styles = tuple(sorted(differences[0])), tuple(sorted(set(styles)))
         x = _filled(differences, self.names)
-        self.scale = np.sqrt(np.mean(x * x, axis=0)) + 1e-9
+        self.scale = _scale(x, [visible[name] for name in self.names])
         wanted = np.array([[float(s == one) for one in self.styles] for s in styles])
         self.model = KernelRidge(alpha=RIDGE, kernel="rbf", gamma=WIDTH / len(self.names))
         self.model.fit(np.tanh(x / self.scale), wanted - wanted.mean(axis=0))
@@ -112,7 +117,7 @@ def self_test() -> None:
 
     styles = [style for style in truth for _ in range(6)]
     for name, kind in RECOGNISERS.items():
-        recogniser = kind().fit([example(s) for s in styles], styles)
+        recogniser = kind().fit([example(s) for s in styles], styles, dict.fromkeys(names, 0.1))
         shown = [example(s, 1.2) for s in styles]
         right = [top(p, neutral=True) == s for p, s in zip(recogniser.judge(shown), styles, strict=True)]
         assert np.mean(right) > 0.9, (name, np.mean(right))

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from acted import NEUTRAL, Take, held_out
-from clip_features import difference
+from clip_features import difference, visible
 from looks import Job, Look
 from methods import METHODS, Method, Pairs
 from recognisers import RECOGNISERS, Difference, Kernel, Planes
@@ -90,7 +90,7 @@ def taught(kind: str, pairs: Pairs, looks: Mapping[Job, Look]) -> Recogniser:
         for cut in (look.whole, *look.cuts):
             shown.append(difference(cut[family], look.whole[family]))
             styles.append(NEUTRAL)
-    return recogniser.fit(shown, styles)
+    return recogniser.fit(shown, styles, visible(looks[Job(pairs[0][1])].whole[family]))
 
 
 def judge(
