@@ -13,7 +13,7 @@ from itertools import combinations
 import numpy as np
 
 import mien
-from mien.kinematics.fk import world
+from mien.kinematics.fk import end_positions, world
 from mien.kinematics.heading import heading
 from mien.kinematics.poses import neutral_world
 from mien.rotations import quaternion
@@ -68,8 +68,7 @@ class View:
         back = quaternion.exp(-yaw[:, None] * body.up)
         ground = _level(positions[:, body.roles["hips"]], body)
         points, placed = {}, {}
-        for role in _roles(body):
-            at = positions[:, body.roles[role]]
+        for role, at in _places(motion, body, rotations, positions).items():
             points[role] = _sampled(quaternion.rotate(back, at - ground) @ axes.T / body.leg_length, motion)
             placed[role] = _sampled(at @ axes.T / body.leg_length, motion)
         stance = neutral_world(motion, body)[0]
@@ -90,9 +89,16 @@ class View:
         return View(*cut)
 
 
-def _roles(body: mien.Body) -> list[str]:
+def _places(motion: mien.Motion, body: mien.Body, rotations: Array, positions: Array) -> dict[str, Array]:
+    """Return role -> (T, 3) in the world; where a skeleton ends with the forearm, its end is the wrist."""
     wanted = ["hips", "chest", "head", *(f"{s}_{p}" for s in SIDES for p in POINTS)]
-    return [role for role in wanted if role in body.roles]
+    out = {role: positions[:, body.roles[role]] for role in wanted if role in body.roles}
+    ends = end_positions(motion, rotations, positions)
+    for side in SIDES:
+        below = np.flatnonzero(motion.skeleton.end_parents == body.roles[f"{side}_elbow"])
+        if f"{side}_wrist" not in out and len(below):
+            out[f"{side}_wrist"] = ends[:, below[0]]
+    return out
 
 
 def _level(hips: Array, body: mien.Body) -> Array:
@@ -157,8 +163,9 @@ def _limb_courses(view: View) -> dict[str, tuple[str, list[Array]]]:
     def add(name: str, unit: str, values: Array) -> None:
         out.setdefault(name, (unit, []))[1].append(values)
 
-    arms = zip(*(_both(view, r) for r in ("shoulder", "elbow", "wrist")), strict=True)
-    for shoulder, elbow, wrist in arms:
+    roles = ("shoulder", "elbow", "wrist")
+    arms = [_both(view, r) for r in roles] if "left_wrist" in view.points else []
+    for shoulder, elbow, wrist in zip(*arms, strict=True):
         upper, lower = _unit(elbow - shoulder), _unit(wrist - elbow)
         add("arm forward", "degrees", _deg(np.arcsin(np.clip(upper[:, 0], -1, 1))))
         add("arm out", "degrees", _deg(np.arcsin(np.clip(upper[:, 1], -1, 1))))
@@ -214,10 +221,10 @@ def _speeds(view: View) -> dict[str, tuple[float, Feature]]:
     """
     out: dict[str, tuple[float, Feature]] = {}
     groups = {
-        "hands": [view.points[f"{s}_wrist"] - view.points["hips"] for s in SIDES],
-        "head": [view.points["head"] - view.points["hips"]] if "head" in view.points else [],
+        "hands": _from_hips(view, [f"{s}_wrist" for s in SIDES]),
+        "head": _from_hips(view, ["head"]),
         "feet": [view.placed[f"{s}_ankle"] for s in SIDES],
-        "feet, from hips": [view.points[f"{s}_ankle"] - view.points["hips"] for s in SIDES],
+        "feet, from hips": _from_hips(view, [f"{s}_ankle" for s in SIDES]),
         "hips": [view.placed["hips"]],
     }
     for name, tracks in groups.items():
@@ -233,6 +240,10 @@ def _speeds(view: View) -> dict[str, tuple[float, Feature]]:
     travel = np.linalg.norm(view.placed["hips"][-1, :2] - view.placed["hips"][0, :2])
     out["travel"] = (float(travel * RATE / (len(view.placed["hips"]) - 1)), Feature("legs/s", ratio=True))
     return out
+
+
+def _from_hips(view: View, roles: list[str]) -> list[Array]:
+    return [view.points[role] - view.points["hips"] for role in roles if role in view.points]
 
 
 def _rates(track: Array) -> list[float]:

@@ -39,11 +39,12 @@ def judged(
     edited = {}
     for name in options.method:
         method = METHODS[name]
-        plan = rounds(learned, neutral, learns=method.learn is not None, strict=options.strict)
+        learns = method.learn is not None
+        plan = rounds(learned, neutral, learns=learns, shared=options.shared, strict=options.strict)
         looks = look_at(jobs(plan, name, method.asks(near=options.near)), learned)
         shown, edited[name] = judge(plan, name, method, kind, looks, near=options.near)
         # A recogniser that shares the contents with a method has learned from fewer: it is no yardstick.
-        acted = acted or (shown if method.learn is None else [])
+        acted = acted or ([] if learns and not options.shared else shown)
     return acted, edited
 
 
@@ -103,6 +104,9 @@ def parsed() -> argparse.Namespace:
     parser.add_argument("--input", **many, default=["acted"], help=f"acted, {', '.join(INPUTS)}")
     parser.add_argument("--contents", **many, default=[], help="only these: walk, run, bow, ...")
     parser.add_argument("--strict", action="store_true", help="hold out with a content those much like it")
+    parser.add_argument(
+        "--shared", action="store_true", help="recogniser and method learn from the same takes"
+    )
     parser.add_argument("--near", action="store_true", help="judge also words that only come near to a style")
     parser.add_argument(
         "--no-confusion", dest="confusion", action="store_false", help="no confusion matrices"

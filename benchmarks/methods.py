@@ -5,7 +5,9 @@ A new method is one line in ``METHODS``.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
+import crude
 from acted import STYLES, Take
 
 import mien
@@ -60,14 +62,19 @@ class Method:
         return list(self.words.items()) + [(style, word) for style in more for word in more[style]]
 
 
-def presets(prefix: str = "") -> Method:
+def bare(motion: mien.Motion, word: str) -> mien.Motion:
+    """Return an edit that nothing was taken back of, whatever the checks say."""
+    return mien.edit(motion, word, safe=False)
+
+
+def presets(prefix: str = "", edit: Edit = mien.edit) -> Method:
     """Return mien's presets whose names start with a prefix, for the styles they plainly mean."""
     found = {
         style: next((prefix + word for word in words if prefix + word in PRESETS), "")
         for style, words in WORDS.items()
     }
     near = {s: tuple(prefix + w for w in words if prefix + w in PRESETS) for s, words in NEAR.items()}
-    return Method({style: word for style, word in found.items() if word}, mien.edit, near=near)
+    return Method({style: word for style, word in found.items() if word}, edit, near=near)
 
 
 def nothing(motion: mien.Motion, word: str) -> mien.Motion:
@@ -78,5 +85,8 @@ def nothing(motion: mien.Motion, word: str) -> mien.Motion:
 METHODS: dict[str, Method] = {
     "s0": presets("s0/"),
     "default": presets(),
+    "default-bare": presets(edit=bare),
+    "crude": Method({style: style for style in STYLES}, learn=crude.learn),
+    "crude-bare": Method({style: style for style in STYLES}, learn=partial(crude.learn, keep_safe=False)),
     "nothing": Method({style: style for style in STYLES}, nothing),
 }

@@ -35,11 +35,12 @@ class Verdict:
     failed: tuple[str, ...] = ()
 
 
-def rounds(pairs: Pairs, neutral: Sequence[Take], *, learns: bool, strict: bool) -> list[Round]:
+def rounds(pairs: Pairs, neutral: Sequence[Take], *, learns: bool, shared: bool, strict: bool) -> list[Round]:
     """Return the rounds that judge ``neutral`` takes: each content in turn is held out of all learning.
 
     Neutral takes of other sets are judged by a recogniser that learned from every content. If the method
-    learns too, it has one half of the contents and the recogniser the other, and then the other way round.
+    learns too, it has one half of the contents and the recogniser the other, and then the other way round;
+    or, ``shared``, both have all that are not held out.
     """
     known = {held_out(t.content, strict=strict) for t, _ in pairs}
     out = []
@@ -47,7 +48,8 @@ def rounds(pairs: Pairs, neutral: Sequence[Take], *, learns: bool, strict: bool)
         judged = tuple(t for t in neutral if _name(t, strict) == name)
         contents = sorted(known - {name})
         halves = [contents[::2], contents[1::2]]
-        for mine, theirs in [halves, halves[::-1]] if learns else [(contents, [])]:
+        plans = [halves, halves[::-1]] if learns and not shared else [[contents, contents if learns else []]]
+        for mine, theirs in plans:
             out.append(
                 Round(
                     tuple(p for p in pairs if held_out(p[0].content, strict=strict) in mine),
