@@ -57,13 +57,17 @@ INPUTS["unseen"] = {f"bandai1/dataset-1_{name}_normal_001": (0.0, 8.0) for name 
 
 @dataclass(frozen=True)
 class Take:
-    """One clip: ``path``, what is done in it, in which style, of which set; ``span`` in seconds, if cut."""
+    """One clip: ``path``, what is done in it, in which style, of which set.
+
+    ``span`` in seconds, if it is cut; ``neutral``, the neutral clip of an acted one.
+    """
 
     path: Path
     content: str
     style: str
     source: str
     span: tuple[float, float] | None = None
+    neutral: Path | None = None
 
     def load(self) -> mien.Motion:
         """Read it; of a CMU clip without its first frame, which is no movement but a T-pose."""
@@ -81,7 +85,8 @@ def takes() -> list[Take]:
         source, content, word, _ = path.stem.split("_")
         style = word if source.endswith("1") else SAME.get(word)
         if style is not None and content not in ALONE:
-            out.append(Take(path, content, style, source))
+            found = sorted(path.parent.glob(f"{source}_{content}_{NEUTRAL}_*.bvh"))
+            out.append(Take(path, content, style, source, neutral=None if style == NEUTRAL else found[0]))
     if not out:
         raise SystemExit(f"no acted clips in {DATA}: MIEN_DATA must name a folder with bandai1 and bandai2")
     return out

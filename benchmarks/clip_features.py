@@ -59,9 +59,13 @@ class View:
     placed: Mapping[str, Array]
 
     @classmethod
-    def of(cls, motion: mien.Motion, body: mien.Body | None = None) -> "View":
-        """Look at a motion."""
-        body = body or mien.Body.of(motion)
+    def of(cls, motion: mien.Motion, *, like: mien.Motion | None = None) -> "View":
+        """Look at a motion.
+
+        ``like`` is another clip of the same skeleton, whose stance says where face, chest, hips and toes
+        point: a stance that is read from a bowed head or turned out feet would hide them.
+        """
+        body = mien.Body.of(motion)
         rotations, positions = world(motion)
         axes = np.stack([body.forward, body.left, body.up])
         yaw = smooth(heading(positions, body), sigma=TURNS / motion.frame_time)
@@ -71,7 +75,7 @@ class View:
         for role, at in _places(motion, body, rotations, positions).items():
             points[role] = _sampled(quaternion.rotate(back, at - ground) @ axes.T / body.leg_length, motion)
             placed[role] = _sampled(at @ axes.T / body.leg_length, motion)
-        stance = neutral_world(motion, body)[0]
+        stance = _stance(motion, body) if like is None else _stance(like, mien.Body.of(like))
         ways = {}
         for role in ("head", "hips", "chest", "left_ankle", "right_ankle"):
             if role in body.roles:
@@ -87,6 +91,11 @@ class View:
         part = slice(int(start * frames), max(int(stop * frames), int(start * frames) + 4))
         cut = ({k: v[part] for k, v in all_.items()} for all_ in (self.points, self.ways, self.placed))
         return View(*cut)
+
+
+def _stance(motion: mien.Motion, body: mien.Body) -> Array:
+    """Return the world rotations (J, 4) of the neutral stance."""
+    return neutral_world(motion, body)[0]
 
 
 def _places(motion: mien.Motion, body: mien.Body, rotations: Array, positions: Array) -> dict[str, Array]:

@@ -36,9 +36,8 @@ class Turning:
     speed: float
 
 
-def seen(motion: mien.Motion) -> tuple[Joints, Array, Array]:
+def seen(motion: mien.Motion, body: mien.Body) -> tuple[Joints, Array, Array]:
     """Return the joints and how they are turned (T, R, 4), and the same of the hips (T, 4), in body axes."""
-    body = mien.Body.of(motion)
     joints = Joints.of(motion, body)
     rotations, positions = world(motion)
     turned = quaternion.multiply(
@@ -60,9 +59,9 @@ def _in_axes(q: Array, axes: Array) -> Array:
     return np.concatenate([q[..., :3] @ axes.T, q[..., 3:]], axis=-1)
 
 
-def turning(motion: mien.Motion) -> Turning:
-    """Return how a clip's joints turn."""
-    joints, turned, hips = seen(motion)
+def turning(motion: mien.Motion, body: mien.Body) -> Turning:
+    """Return how a clip's joints turn away from the stance of a body, which may be another clip's."""
+    joints, turned, hips = seen(motion, body)
     mean, rest, speeds = {}, {}, []
     for name, q in [("hips", hips), *((n, turned[:, r]) for r, n in enumerate(joints.names))]:
         middle = _mean(q)
@@ -93,9 +92,10 @@ def learn(
 ) -> Callable[[mien.Motion, str], mien.Motion]:
     """Return an edit (motion, style) -> motion that was learned from acted takes and their neutral ones."""
     found: dict[str, list[tuple[Turning, Turning]]] = defaultdict(list)
-    turnings = {take: turning(take.load()) for pair in pairs for take in pair}
     for acted, neutral in pairs:
-        found[acted.style].append((turnings[acted], turnings[neutral]))
+        calm = neutral.load()
+        body = mien.Body.of(calm)
+        found[acted.style].append((turning(acted.load(), body), turning(calm, body)))
     styles = {style: _averaged(some) for style, some in found.items()}
 
     def edit(motion: mien.Motion, style: str) -> mien.Motion:
@@ -127,8 +127,8 @@ def transform(motion: mien.Motion, style: Style) -> mien.Motion:
 def _rotations(motion: mien.Motion, style: Style) -> Array:
     """Return the local rotations (T, J, 4) in a style."""
     body = mien.Body.of(motion)
-    joints, _, _ = seen(motion)
-    was, back = turning(motion), _axes(body).T
+    joints, _, _ = seen(motion, body)
+    was, back = turning(motion, body), _axes(body).T
 
     def styled(name: str) -> Array:
         middle = quaternion.multiply(quaternion.exp(style.offsets.get(name, np.zeros(3))), was.mean[name])

@@ -23,10 +23,11 @@ for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):  # one process a core,
     os.environ.setdefault(_name, "1")
 
 import effect_tables as tables  # noqa: E402
+import numpy as np  # noqa: E402
 import recognisers  # noqa: E402
 from acted import INPUTS, NEUTRAL, STYLES, Take, inputs, pairs, takes  # noqa: E402
-from clip_features import difference  # noqa: E402
-from looks import Job, Look, look_at  # noqa: E402
+from clip_features import Feature, difference  # noqa: E402
+from looks import Features, Job, Look, look_at  # noqa: E402
 from methods import METHODS, Pairs  # noqa: E402
 from rounds import Verdict, jobs, judge, rounds  # noqa: E402
 
@@ -68,15 +69,18 @@ def what_actors_do(options: argparse.Namespace, learned: Pairs) -> None:
     some = [(a, n) for a, n in learned if not options.contents or a.content in options.contents]
     shown: dict[str, list[dict[str, float]]] = {style: [] for style in STYLES}
     for take, neutral in some:
-        shown[take.style].append(difference(_readable(looks, take), _readable(looks, neutral)))
+        found = difference(_readable(looks, take), _readable(looks, neutral))
+        found["duration"] = float(np.log(looks[Job(take)].seconds / looks[Job(neutral)].seconds))
+        shown[take.style].append(found)
     features = {name: feature for name, (_, feature) in _readable(looks, learned[0][1]).items()}
+    features["duration"] = Feature("s", ratio=True)
     contents = sorted({a.content for a, _ in some})
     print(f"What actors change from neutral: mean and standard deviation over {', '.join(contents)}.")
     print("Angles in degrees; lengths in % of a leg; ranges, speeds, jerk and tempo as factors.\n")
     tables.acted_table(shown, features, everything=options.all)
 
 
-def _readable(looks: dict[Job, Look], take: Take) -> dict:
+def _readable(looks: dict[Job, Look], take: Take) -> Features:
     return looks[Job(take)].whole["readable"]
 
 

@@ -89,7 +89,7 @@ def _digest(*files: Path) -> str:
 def _look(job: Job) -> Look:
     motion = job.take.load()
     if not job.method:
-        view = View.of(motion)
+        view = View.of(motion, like=mien.load(job.take.neutral) if job.take.neutral else None)
         parts = CUTS if job.take.style == NEUTRAL else ()
         return Look(_features(view), motion.duration, tuple(_features(view.cut(*part)) for part in parts))
     try:
