@@ -66,22 +66,22 @@ class View:
         point: a stance that is read from a bowed head or turned out feet would hide them.
         """
         body = mien.Body.of(motion)
+        stance, calm = _stance(motion if like is None else like)
         rotations, positions = world(motion)
-        axes = np.stack([body.forward, body.left, body.up])
-        yaw = smooth(heading(positions, body), sigma=TURNS / motion.frame_time)
+        axes = np.stack([calm.forward, calm.left, calm.up])
+        yaw = smooth(heading(positions, calm), sigma=TURNS / motion.frame_time)
         back = quaternion.exp(-yaw[:, None] * body.up)
         ground = _level(positions[:, body.roles["hips"]], body)
         points, placed = {}, {}
         for role, at in _places(motion, body, rotations, positions).items():
             points[role] = _sampled(quaternion.rotate(back, at - ground) @ axes.T / body.leg_length, motion)
             placed[role] = _sampled(at @ axes.T / body.leg_length, motion)
-        stance = _stance(motion, body) if like is None else _stance(like, mien.Body.of(like))
         ways = {}
         for role in ("head", "hips", "chest", "left_ankle", "right_ankle"):
             if role in body.roles:
                 j = body.roles[role]
                 turned = quaternion.multiply(rotations[:, j], quaternion.conjugate(stance[j]))
-                seen = quaternion.rotate(quaternion.multiply(back, turned), body.forward)
+                seen = quaternion.rotate(quaternion.multiply(back, turned), calm.forward)
                 ways[role] = _unit(_sampled(seen @ axes.T, motion))
         return cls(points, ways, placed)
 
@@ -93,9 +93,10 @@ class View:
         return View(*cut)
 
 
-def _stance(motion: mien.Motion, body: mien.Body) -> Array:
-    """Return the world rotations (J, 4) of the neutral stance."""
-    return neutral_world(motion, body)[0]
+def _stance(motion: mien.Motion) -> tuple[Array, mien.Body]:
+    """Return the world rotations (J, 4) of the neutral stance, and the body that stands so."""
+    body = mien.Body.of(motion)
+    return neutral_world(motion, body)[0], body
 
 
 def _places(motion: mien.Motion, body: mien.Body, rotations: Array, positions: Array) -> dict[str, Array]:
