@@ -17,6 +17,7 @@ from mien.kinematics.fk import end_positions, world
 from mien.kinematics.heading import heading
 from mien.kinematics.poses import neutral_world
 from mien.rotations import quaternion
+from mien.samples import tired_walk, walk
 from mien.signal.bridging import smooth
 from mien.typing import Array
 
@@ -371,3 +372,21 @@ def difference(
 def visible(clip: Mapping[str, tuple[float, Feature]]) -> dict[str, float]:
     """Return for each feature the difference from which people would see one."""
     return {name: feature.visible for name, (_, feature) in clip.items()}
+
+
+def self_test() -> None:
+    """See that skeleton, unit, axis, heading and frame rate do not matter, on clips of known truth."""
+    forms = (
+        {"skeleton": "standard22", "fps": 60.0},
+        {"skeleton": "capture31", "fps": 50.0, "unit": "inch", "up": "z"},
+        {"skeleton": "poser43", "fps": 120.0, "unit": "m", "heading": 2.0},
+    )
+    for name, family in FAMILIES.items():
+        seen = [(family(View.of(walk(**f).motion)), family(View.of(tired_walk(**f).motion))) for f in forms]
+        found = [difference(tired, calm) for calm, tired in seen]
+        least = visible(seen[0][0])
+        off = max(abs(d[n] - found[0][n]) / least[n] for d in found for n in least)
+        size = np.mean([abs(found[0][n]) / least[n] for n in least])
+        assert found[0].keys() == found[1].keys() == found[2].keys(), name
+        assert off < 1.0 < size, (name, off, size)
+        print(f"{name}: three skeletons differ by at most {off:.1f} of what can be seen, tired by {size:.1f}")

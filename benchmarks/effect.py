@@ -22,6 +22,7 @@ import time
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):  # one process a core, and no more threads than that
     os.environ.setdefault(_name, "1")
 
+import clip_features  # noqa: E402
 import effect_tables as tables  # noqa: E402
 import numpy as np  # noqa: E402
 import recognisers  # noqa: E402
@@ -138,6 +139,7 @@ def main() -> None:
     options = parsed()
     start = time.perf_counter()
     if options.self_test:
+        clip_features.self_test()
         recognisers.self_test()
         return
     everything = takes()

@@ -19,29 +19,29 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
 
 
 def hits(verdicts: Sequence[Verdict]) -> tuple[float, ...]:
-    """Return shares of verdicts, and a mean probability.
+    """Return how well something is known.
 
-    The share known as intended when one of the 14 must be chosen; the mean probability of the intended, with
-    "normal" among the answers; the share for which "normal" is the likeliest; the share failing a check.
+    The share known as intended when one of the 14 must be chosen; when "normal" may be chosen too; the mean
+    probability of the intended, with "normal" among the answers; the share failing a check.
     """
-    known = [top(v.answer) == v.style for v in verdicts]
+    forced = [top(v.answer) == v.style for v in verdicts]
+    free = [top(v.answer, neutral=True) == v.style for v in verdicts]
     chance = [v.answer[v.style] for v in verdicts]
-    same = [top(v.answer, neutral=True) == NEUTRAL for v in verdicts]
     failed = [bool(v.failed) for v in verdicts]
-    return float(np.mean(known)), float(np.mean(chance)), float(np.mean(same)), float(np.mean(failed))
+    return tuple(float(np.mean(x)) for x in (forced, free, chance, failed))
 
 
 def by_style(acted: Sequence[Verdict], methods: Mapping[str, Sequence[Verdict]]) -> None:
     """Print what is known of each style: acted, then by each method; below, the means."""
-    head = ["style", *(["acted: top-1", "p", "neutral"] if acted else [])]
+    head = ["style", *(["acted: top-1", "of 15", "p"] if acted else [])]
     for name in methods:
-        head += [f"{name}: top-1", "p", "neutral", "fails a check"]
+        head += [f"{name}: top-1", "of 15", "p", "fails a check"]
     rows, kept = [], {name: dict[str, tuple[float, ...]]() for name in methods}
     shown = {s: hits([v for v in acted if v.style == s]) for s in STYLES} if acted else {}
     for style in STYLES:
         row = [style, *(f"{x:.2f}" for x in shown[style][:3])] if acted else [style]
         for name, verdicts in methods.items():
-            some = [v for v in verdicts if v.style == style and _counts(v, verdicts)]
+            some = [v for v in verdicts if v.style == style and not v.near]
             if some:
                 kept[name][style] = hits(some)
             row += [f"{x:.2f}" for x in kept[name][style]] if some else ["", "", "", ""]
@@ -52,14 +52,9 @@ def by_style(acted: Sequence[Verdict], methods: Mapping[str, Sequence[Verdict]])
             *([f"{np.mean([x[i] for x in shown.values()]):.2f}" for i in (0, 1, 2)] if acted else []),
         ]
         for name in methods:
-            row += [f"{_mean(kept[name], i, whole and i < 2):.2f}" for i in range(4)]
+            row += [f"{_mean(kept[name], i, whole and i < 3):.2f}" for i in range(4)]
         rows.append(row)
     table(head, rows)
-
-
-def _counts(verdict: Verdict, verdicts: Sequence[Verdict]) -> bool:
-    """Return whether the word is the one that plainly means the style: the first that was asked."""
-    return verdict.word == next(v.word for v in verdicts if v.style == verdict.style)
 
 
 def _mean(found: Mapping[str, tuple[float, ...]], at: int, whole: bool) -> float:
@@ -69,14 +64,14 @@ def _mean(found: Mapping[str, tuple[float, ...]], at: int, whole: bool) -> float
 def near(name: str, verdicts: Sequence[Verdict]) -> None:
     """Print how words that only come near to a style are read."""
     rows = []
-    for style, word in dict.fromkeys((v.style, v.word) for v in verdicts if not _counts(v, verdicts)):
+    for style, word in dict.fromkeys((v.style, v.word) for v in verdicts if v.near):
         some = [v for v in verdicts if (v.style, v.word) == (style, word)]
         read = Counter(top(v.answer) for v in some).most_common(3)
         shown = ", ".join(f"{s} {n / len(some):.0%}" for s, n in read)
         rows.append([f"{word}, as {style}", *(f"{x:.2f}" for x in hits(some)), shown])
     if rows:
         print(f"Words of `{name}` that come near, not counted:\n")
-        table(["word", "top-1", "p", "neutral", "fails a check", "read as"], rows)
+        table(["word", "top-1", "of 15", "p", "fails a check", "read as"], rows)
 
 
 def confusion(title: str, verdicts: Sequence[Verdict]) -> None:
@@ -85,7 +80,7 @@ def confusion(title: str, verdicts: Sequence[Verdict]) -> None:
     print(f"{title}: read as, of the 14 (% of each row); last, seen as unchanged\n")
     rows = []
     for style in styles:
-        some = [v for v in verdicts if v.style == style and _counts(v, verdicts)]
+        some = [v for v in verdicts if v.style == style and not v.near]
         read = Counter(top(v.answer) for v in some)
         read[NEUTRAL] = sum(top(v.answer, neutral=True) == NEUTRAL for v in some)
         shares = [100 * read[s] / len(some) for s in (*STYLES, NEUTRAL)]

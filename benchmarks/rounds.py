@@ -24,7 +24,10 @@ class Round:
 
 @dataclass
 class Verdict:
-    """What was intended, what the recogniser answered, and what it was shown."""
+    """What was intended, what the recogniser answered, and what it was shown.
+
+    ``near``: the ``word`` asked for only comes near to the style.
+    """
 
     style: str
     word: str
@@ -33,6 +36,7 @@ class Verdict:
     shown: Difference
     weights: Mapping[str, float] = field(default_factory=dict)
     failed: tuple[str, ...] = ()
+    near: bool = False
 
 
 def rounds(pairs: Pairs, neutral: Sequence[Take], *, learns: bool, shared: bool, strict: bool) -> list[Round]:
@@ -104,12 +108,15 @@ def judge(
         recogniser = taught(kind, one.pairs, looks)
         acted += _verdicts(recogniser, [(t.style, "", Job(t), n) for t, n in one.acted], looks)
         asked = [(s, w, _edit(name, t, w, one), t) for t in one.neutral for s, w in method.asks(near=near)]
-        edited += _verdicts(recogniser, asked, looks)
+        edited += _verdicts(recogniser, asked, looks, method.words)
     return acted, edited
 
 
 def _verdicts(
-    recogniser: Recogniser, asked: Sequence[tuple[str, str, Job, Take]], looks: Mapping[Job, Look]
+    recogniser: Recogniser,
+    asked: Sequence[tuple[str, str, Job, Take]],
+    looks: Mapping[Job, Look],
+    words: Mapping[str, str] | None = None,
 ) -> list[Verdict]:
     shown = [
         difference(looks[job].whole.get(recogniser.family, {}), looks[Job(take)].whole[recogniser.family])
@@ -117,7 +124,16 @@ def _verdicts(
     ]
     answers = recogniser.judge(shown) if shown else []
     return [
-        Verdict(style, word, take, answer, seen, _weights(recogniser, style), looks[job].failed)
+        Verdict(
+            style,
+            word,
+            take,
+            answer,
+            seen,
+            _weights(recogniser, style),
+            looks[job].failed,
+            bool(word) and word != (words or {}).get(style),
+        )
         for (style, word, job, take), answer, seen in zip(asked, answers, shown, strict=True)
     ]
 
