@@ -57,7 +57,7 @@ def report(options: argparse.Namespace, learned: Pairs, source: str, neutral: li
         print(f"## Recogniser {kind}, edits of {len(neutral)} neutral clips: {source}\n")
         tables.by_style(acted, edited)
         if options.confusion:
-            for name, verdicts in ({"acted": acted} if acted else {} | edited).items():
+            for name, verdicts in (({"acted": acted} if acted else {}) | edited).items():
                 tables.confusion(name, verdicts)
         for name, verdicts in edited.items():
             tables.near(name, verdicts)
