@@ -45,16 +45,21 @@ def judged(
         plan = rounds(learned, neutral, learns=learns, shared=options.shared, strict=options.strict)
         looks = look_at(jobs(plan, name, method.asks(near=options.near)), learned)
         shown, edited[name] = judge(plan, name, method, kind, looks, near=options.near)
-        # A recogniser that shares the contents with a method has learned from fewer: it is no yardstick.
-        acted = acted or ([] if learns and not options.shared else shown)
+        if learns and not options.shared and shown:
+            known = np.mean([tables.hits([v for v in shown if v.style == s])[0] for s in STYLES])
+            print(
+                f"Sharing the contents with `{name}`, recogniser {kind} knows {known:.2f} of the actors'.\n"
+            )
+        else:
+            acted = acted or shown
     return acted, edited
 
 
 def report(options: argparse.Namespace, learned: Pairs, source: str, neutral: list[Take]) -> None:
     """Print the tables of one kind of input."""
     for kind in options.recogniser:
-        acted, edited = judged(options, kind, learned, neutral)
         print(f"## Recogniser {kind}, edits of {len(neutral)} neutral clips: {source}\n")
+        acted, edited = judged(options, kind, learned, neutral)
         tables.by_style(acted, edited)
         if options.confusion:
             for name, verdicts in (({"acted": acted} if acted else {}) | edited).items():
