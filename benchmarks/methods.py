@@ -1,0 +1,92 @@
+"""What is judged by ``effect.py``: the methods that make a style out of a neutral clip.
+
+A new method is one line in ``METHODS``.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import crude
+from acted import STYLES, Take
+
+import mien
+from mien.emotion.presets import PRESETS
+
+Edit = Callable[[mien.Motion, str], mien.Motion]
+Pairs = Sequence[tuple[Take, Take]]
+
+# Style of the actors -> presets that plainly mean the same; the first that exists is judged.
+WORDS: Mapping[str, tuple[str, ...]] = {
+    "active": ("active", "excited"),
+    "angry": ("angry",),
+    "childish": ("childish",),
+    "chimpira": ("chimpira", "delinquent"),
+    "feminine": ("feminine",),
+    "giant": ("giant",),
+    "happy": ("happy",),
+    "masculinity": ("masculine",),
+    "musical": ("musical",),
+    "not-confident": ("not-confident", "unconfident", "shy"),
+    "old": ("old", "elderly"),
+    "proud": ("proud",),
+    "sad": ("sad",),
+    "tired": ("tired", "exhausted"),
+}
+# Presets that only come near to a style: judged with ``--near``, never counted.
+NEAR: Mapping[str, tuple[str, ...]] = {
+    "not-confident": ("weak", "afraid", "nervous"),
+    "proud": ("confident",),
+    "masculinity": ("strong",),
+    "active": ("happy",),
+}
+
+
+@dataclass(frozen=True)
+class Method:
+    """One way to edit.
+
+    ``words`` style -> what to ask for, of the styles it can do; ``edit`` (motion, word) -> motion. One that
+    learns has ``learn`` instead: from (acted take, neutral take) pairs to its ``edit``; it then never sees
+    contents that its recogniser learns from.
+    """
+
+    words: Mapping[str, str]
+    edit: Edit | None = None
+    learn: Callable[[Pairs], Edit] | None = None
+    near: Mapping[str, tuple[str, ...]] | None = None
+
+    def asks(self, *, near: bool) -> list[tuple[str, str]]:
+        """Return (style, word) for everything to be judged."""
+        more = self.near if near and self.near else {}
+        return list(self.words.items()) + [(style, word) for style in more for word in more[style]]
+
+
+def bare(motion: mien.Motion, word: str) -> mien.Motion:
+    """Return an edit that nothing was taken back of, whatever the checks say."""
+    return mien.edit(motion, word, safe=False)
+
+
+def presets(prefix: str = "", edit: Edit = mien.edit) -> Method:
+    """Return mien's presets whose names start with a prefix, for the styles they plainly mean."""
+    found = {
+        style: next((prefix + word for word in words if prefix + word in PRESETS), "")
+        for style, words in WORDS.items()
+    }
+    near = {s: tuple(prefix + w for w in words if prefix + w in PRESETS) for s, words in NEAR.items()}
+    return Method({style: word for style, word in found.items() if word}, edit, near=near)
+
+
+def nothing(motion: mien.Motion, word: str) -> mien.Motion:
+    """Return the clip itself: what a recogniser says of it is what chance gives."""
+    return motion
+
+
+METHODS: dict[str, Method] = {
+    "s0": presets("s0/"),
+    "default": presets(),
+    "default-bare": presets(edit=bare),
+    "crude": Method({style: style for style in STYLES}, learn=crude.learn),
+    "crude-bare": Method({style: style for style in STYLES}, learn=partial(crude.learn, keep_safe=False)),
+    "nothing": Method({style: style for style in STYLES}, nothing),
+}
