@@ -20,8 +20,10 @@ if TYPE_CHECKING:
     from .emotion.files import read_recipe as read_recipe
     from .emotion.files import write_recipe as write_recipe
     from .emotion.mix import mixed as mixed
+    from .emotion.model import load_model as load_model
     from .emotion.presets import PRESETS as PRESETS
     from .emotion.presets import preset as preset
+    from .emotion.reading import read as read
     from .emotion.resolve import apply as apply
     from .emotion.resolve import edit as edit
     from .errors import BodyError as BodyError
@@ -65,6 +67,8 @@ _HOME = {
     "load": ".formats",
     "mixed": ".emotion.mix",
     "preset": ".emotion.presets",
+    "read": ".emotion.reading",
+    "load_model": ".emotion.model",
     "read_recipe": ".emotion.files",
     "render": ".",
     "samples": ".",

@@ -18,6 +18,8 @@ from .analysis.laban import Features, features
 from .curve import Varying, values
 from .edits.registry import EDITS
 from .emotion.files import read_provenance, sidecar_of
+from .emotion.model import load_model
+from .emotion.reading import Reading, read
 from .emotion.recipe_text import format_recipe
 from .emotion.resolve import done
 from .errors import FormatError, MienError, RecipeError, sentence
@@ -97,12 +99,17 @@ def edit_file(job: Job) -> Outcome:
 
 
 @dataclass(frozen=True)
-class Reading:
-    """One file to measure. ``read`` are the options of ``load``, ``body`` the roles of a map file."""
+class Subject:
+    """One file to measure. ``read`` are the options of ``load``, ``body`` the roles of a map file.
+
+    ``neutral`` is a clip to compare it with, ``model`` the file of a learned model.
+    """
 
     source: Path
     read: Mapping[str, Any] = field(default_factory=dict)
     body: Mapping[str, str] = field(default_factory=dict)
+    neutral: Path | None = None
+    model: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -114,27 +121,34 @@ class Analysis:
     duration: float = 0.0
     features: Features | None = None
     effort: Effort | None = None
+    reading: Reading | None = None
     error: str = ""
     unexpected: bool = False
 
 
-def analyse_files(readings: Sequence[Reading], *, workers: int = 1) -> Iterator[Analysis]:
+def analyse_files(subjects: Sequence[Subject], *, workers: int = 1) -> Iterator[Analysis]:
     """Measure files and yield what was found in each, in the order given, shared by ``workers`` processes."""
-    return _shared(analyse_file, readings, workers)
+    return _shared(analyse_file, subjects, workers)
 
 
-def analyse_file(reading: Reading) -> Analysis:
-    """Read one file and work out its Laban features and Effort factors."""
+def analyse_file(subject: Subject) -> Analysis:
+    """Read one file and work out what it expresses, its Laban features and Effort factors.
+
+    Without a ``neutral`` clip an edited one is compared with what it was made from, where that is found.
+    """
     try:
-        motion = opened(reading.source, body=reading.body, **reading.read)
-        found = features(motion), effort(motion)
+        motion = opened(subject.source, body=subject.body, **subject.read)
+        before = subject.neutral or source_of(subject.source)
+        neutral = opened(before, body=subject.body, **subject.read) if before else None
+        model = load_model(subject.model) if subject.model else None
+        found = features(motion), effort(motion), read(motion, neutral=neutral, model=model)
     except (MienError, OSError, MemoryError) as error:
-        return Analysis(reading.source, error=sentence(error))
+        return Analysis(subject.source, error=sentence(error))
     except Exception as error:
         if os.environ.get("MIEN_DEBUG"):
             raise
-        return Analysis(reading.source, error=sentence(error), unexpected=True)
-    return Analysis(reading.source, len(motion), motion.duration, *found)
+        return Analysis(subject.source, error=sentence(error), unexpected=True)
+    return Analysis(subject.source, len(motion), motion.duration, *found)
 
 
 def edited(job: Job) -> tuple[Motion, Motion]:

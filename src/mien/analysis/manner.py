@@ -149,6 +149,28 @@ def mean_change(changes: Iterable[Change]) -> Change:
     return Change(pose, height, swing, rate, sharpness)
 
 
+def usual_manner(manners: Iterable[Manner]) -> Manner:
+    """Return the mean of several manners: mean rotations, geometric means of sizes and rates.
+
+    Segments and limbs that any of them lacks are left out. Raises ``MienError`` where there are none.
+    """
+    found = list(manners)
+    if not found:
+        raise MienError("the mean of no manners is not defined; give one or more")
+    first = found[0]
+    segments = [s for s in first.pose if all(s in other.pose for other in found)]
+    qualities = [
+        {
+            limb: float(np.exp(np.mean([np.log(max(getattr(m, name)[limb], 1e-6)) for m in found])))
+            for limb in getattr(first, name)
+            if all(limb in getattr(m, name) for m in found)
+        }
+        for name in ("swing", "rate", "sharpness")
+    ]
+    pose = {s: mean_rotation(np.array([m.pose[s] for m in found])) for s in segments}
+    return Manner(pose, float(np.mean([m.hips_height for m in found])), *qualities)
+
+
 def _to_and_fro(q: Array, mean: Array, frame_time: float) -> Array:
     """Return how a segment turns about its slow mean (T, 3), in radians, without noise."""
     turns = quaternion.log(quaternion.multiply(quaternion.conjugate(mean), q))

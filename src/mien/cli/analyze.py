@@ -1,4 +1,4 @@
-"""``mien analyze``: what a clip's movement is like, in the terms of Laban."""
+"""``mien analyze``: what clips express and why, and what their movement is like in the terms of Laban."""
 
 import os
 from collections.abc import Sequence
@@ -31,6 +31,16 @@ def analyze(
     out: Annotated[
         Path | None, typer.Option("--out", "-o", help="The .csv or .parquet file for the table.")
     ] = None,
+    neutral: Annotated[
+        Path | None,
+        typer.Option(help="A clip of the same person, best of the same action, to read the difference from."),
+    ] = None,
+    model: Annotated[
+        Path | None, typer.Option(help="A model that mien learn wrote, in place of the shipped one.")
+    ] = None,
+    laban: Annotated[
+        bool, typer.Option("--laban", help="Also the 31 Laban features that tell emotions apart.")
+    ] = False,
     plot: Annotated[Path | None, typer.Option(help="A .png picture of the features over time.")] = None,
     jobs: Annotated[
         int, typer.Option("--jobs", "-j", help="Processes to share the clips; 0 takes every core.")
@@ -41,30 +51,36 @@ def analyze(
     salvage: a.Salvage = False,
     map_file: a.MapFile = None,
 ) -> None:
-    """Say how clips move: body, effort, shape and space after Laban, in sizes of the body.
+    """Say what clips express, and why: their place between pleasant and unpleasant, calm and intense.
 
-    Prints the 31 features that tell emotions apart (Aristidou et al. 2017), --features writes all of them.
+    An edited clip is compared with its source, any other with --neutral or, as a guess, with how people
+    usually move. --laban and --features tell body, effort, shape and space after Laban (Aristidou et al.
+    2017).
 
-    mien analyze walk.bvh
+    mien analyze walk_sad.bvh
+
+    mien analyze angry_wave.bvh --neutral wave.bvh
 
     mien analyze takes/ --features -o features.csv
 
     mien analyze walk.bvh --plot walk_features.png
     """
-    from ..batch import Reading, analyse_files
-    from .inputs import expand
+    from ..batch import Subject, analyse_files
+    from .inputs import existing, expand
 
     found = [clip.path for clip in expand(clips)]
     per = _checked(per, features or out is not None)
     _refuse(found, out, plot, force)
     read, body = {"fps": fps, "salvage": salvage}, a.read_map(map_file)
-    work = analyse_files([Reading(path, read, body) for path in found], workers=jobs or os.cpu_count() or 1)
+    about = {"neutral": existing(neutral) if neutral else None, "model": model}
+    subjects = [Subject(path, read, body, **about) for path in found]
+    work = analyse_files(subjects, workers=jobs or os.cpu_count() or 1)
     done = list(progress(work, total=len(found), doing="analysing"))
     good = [analysis for analysis in done if not analysis.error]
     if plot and good:
         _draw(good[0], plot)
     if good or as_json:
-        _say(good, features, per, out, plot, as_json)
+        _say(good, features, laban, per, out, plot, as_json)
     _end(done)
 
 
@@ -108,7 +124,13 @@ def _draw(analysis: "Analysis", target: Path) -> None:
 
 
 def _say(
-    good: Sequence["Analysis"], every: bool, per: str, out: Path | None, plot: Path | None, as_json: bool
+    good: Sequence["Analysis"],
+    every: bool,
+    laban: bool,
+    per: str,
+    out: Path | None,
+    plot: Path | None,
+    as_json: bool,
 ) -> None:
     """Write the table to its file or to stdout; without one, say what a person can read."""
     from .tables import as_csv, write_table
@@ -120,11 +142,31 @@ def _say(
         show_json([_as_data(analysis, every, per) for analysis in good])
     elif every:
         typer.echo(as_csv(_columns(good, per)), nl=False)
-    elif not plot:
+    elif not (plot or laban):
+        for analysis in good:
+            _read_out(analysis)
+    elif laban:
         for start in range(0, len(good), BESIDE):
             _show(good[start : start + BESIDE])
     if plot and not as_json:
         typer.echo(str(plot))
+
+
+def _read_out(analysis: "Analysis") -> None:
+    """Print what a clip expresses, and why."""
+    found = analysis.reading
+    if found is None:
+        return
+    how = "against how people usually move: a guess, --neutral makes it sure"
+    how = "against its neutral clip" if found.against == "neutral" else how
+    typer.echo(f"{analysis.source}, {how}")
+    place, quadrant = found.place, found.quadrant
+    typer.echo(f"  valence {place.valence:+.2f}, arousal {place.arousal:+.2f}: {quadrant}")
+    typer.echo(f"  nearest words: {', '.join(found.words)}")
+    likely = [f"{label} {100 * p:.0f} %" for label, p in list(found.labels.items())[:4] if p > 0.02]
+    typer.echo(f"  acted like: {', '.join(likely)}")
+    if found.why:
+        typer.echo(f"  because: {'; '.join(map(str, found.why))}")
 
 
 def _features(analysis: "Analysis") -> "Features":
@@ -159,7 +201,12 @@ def _as_data(analysis: "Analysis", every: bool, per: str) -> dict[str, Any]:
     from ..analysis.laban_table import SELECTED
 
     found = _features(analysis)
-    about = {"file": str(analysis.source), "frames": analysis.frames, "seconds": analysis.duration}
+    about: dict[str, Any] = {
+        "file": str(analysis.source),
+        "frames": analysis.frames,
+        "seconds": analysis.duration,
+    }
+    about |= {"reading": analysis.reading.as_data()} if analysis.reading else {}
     if every and per != "clip":
         rows = _rows(analysis, per)
         return about | {"times": rows.pop("time"), "features": {k: v for k, v in rows.items() if k != "file"}}

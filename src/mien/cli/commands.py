@@ -11,6 +11,7 @@ from .doctor import doctor
 from .edit import edit
 from .grid import grid
 from .info import info
+from .learn import learn
 from .pose import pose
 from .presets import presets
 from .render import render
@@ -24,6 +25,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     blend,
     presets,
     analyze,
+    learn,
     diff,
     check,
     render,

@@ -1,0 +1,212 @@
+"""A model of emotion, learned from acted clips: numbers in, places on the disc out, and a card of its origin.
+
+Three readings are learned from the same clips. **Change**: what differs in manner from the person's neutral
+clip, told apart by linear discriminants; people agree more on change than on labels (Förger and Takala 2015),
+and so do models. **Alone**: what differs from how people usually are, for want of such a clip. **Laban**:
+Laban features of the clip alone, through radial basis functions (Aristidou et al. 2017).
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..analysis.laban_table import DERIVED
+from ..analysis.manner import Manner
+from ..analysis.manner_features import FEATURES
+from ..errors import MienError
+from ..signal.discriminant import Discriminant
+from ..signal.radial import Radial
+from ..typing import Array
+from .circumplex import Point, clamp
+
+VERSION = 1
+SHIPPED = "bandai"
+NEUTRAL = "neutral"
+CLIP = (-0.25, 1.25)  # how far new clips may go beyond the [0, 1] of the training clips
+MOST = 3.0  # times what is usual
+QUALITIES = ("swing", "rate", "sharpness")
+LABAN = ("low", "high", "mean", "components")
+SURFACE = ("centres", "constant", "linear", "radial")
+
+
+@dataclass(frozen=True, eq=False)
+class Manners:
+    """Numbers of manner (F,) to probabilities of labels: centred at ``middle``, scaled, then told apart."""
+
+    middle: Array
+    scale: Array
+    planes: Discriminant
+
+    def scaled(self, manner: Array) -> Array:
+        """Return numbers of manner (..., F) in units of what is usual, the unusual held back."""
+        return np.clip((manner - self.middle) / self.scale, -MOST, MOST)
+
+    def probabilities(self, manner: Array) -> dict[str, float]:
+        """Return label -> probability for numbers of manner (F,), the likeliest first."""
+        values = np.exp(self.planes.log_probabilities(self.scaled(manner)))
+        found = dict(zip(self.planes.names, values.tolist(), strict=True))
+        return dict(sorted(found.items(), key=lambda item: -item[1]))
+
+    def pulls(self, manner: Array, label: str) -> Array:
+        """Return how much each number (F,) speaks for a label."""
+        return self.planes.pulls(self.scaled(manner), label)
+
+
+@dataclass(frozen=True, eq=False)
+class Laban:
+    """Laban features to a place: scaled, selected, turned to main components, and through radial functions.
+
+    ``selected`` (S,) indices into the derived features, their ``low`` and ``high`` (S,) in the training
+    clips, ``mean`` (S,) and ``components`` (C, S) of their main components, ``surface`` from (C,) to (2,).
+    """
+
+    selected: tuple[int, ...]
+    low: Array
+    high: Array
+    mean: Array
+    components: Array
+    surface: Radial
+
+    def scaled(self, derived: Array) -> Array:
+        """Return the selected of derived features (..., 121) in [0, 1], new clips a little beyond."""
+        span = np.maximum(self.high - self.low, 1e-9)
+        found: Array = np.clip((derived[..., list(self.selected)] - self.low) / span, *CLIP)
+        return found
+
+    def place(self, derived: Array) -> Point:
+        """Return where a clip with derived features (121,) stands."""
+        valence, arousal = self.surface((self.scaled(derived) - self.mean) @ self.components.T)
+        return clamp(float(valence), float(arousal))
+
+
+@dataclass(frozen=True, eq=False)
+class EmotionModel:
+    """What is learned: ``card`` (source, licence, scores), the three readings, and how features change.
+
+    ``places`` label -> its point, of labels that stand on the circumplex. ``change`` reads changes of manner
+    from a neutral clip, ``alone`` those from ``rest``, the usual manner. ``changes`` label -> mean change
+    (121,) of the derived Laban features, in their own units.
+    """
+
+    card: Mapping[str, Any]
+    places: Mapping[str, Point]
+    change: Manners
+    rest: Manner
+    alone: Manners
+    laban: Laban
+    changes: Mapping[str, Array]
+
+    def place(self, probabilities: Mapping[str, float]) -> Point:
+        """Return the mean place of the labels that have one, by their probabilities."""
+        weights = np.array([probabilities[label] for label in self.places])
+        points = np.array(list(self.places.values()))
+        valence, arousal = (weights @ points) / max(float(weights.sum()), 1e-9)
+        return clamp(float(valence), float(arousal))
+
+
+def load_model(source: str | Path = SHIPPED) -> EmotionModel:
+    """Return the model in a file that ``mien learn`` wrote, or a shipped one by its name.
+
+    Raises ``MienError`` for a file that is not there or is no model.
+    """
+    if isinstance(source, str) and source == SHIPPED:
+        text = files(__package__).joinpath("models", f"{source}.json").read_text(encoding="utf-8")
+        return _read(text, f"model {source}")
+    try:
+        return _read(Path(source).read_text(encoding="utf-8"), str(source))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not text"
+        raise MienError(
+            f"{source}: cannot be read as a model: {reason}; give a file of mien learn, or {SHIPPED!r}"
+        ) from None
+
+
+def format_model(model: EmotionModel) -> str:
+    """Return the text that ``load_model`` reads back: JSON, numbers with six digits."""
+    laban, rest = model.laban, model.rest
+    data = {
+        "version": VERSION,
+        "card": dict(model.card),
+        "places": {label: list(place) for label, place in model.places.items()},
+        "change": _manners(model.change),
+        "rest": {
+            "pose": {segment: _plain(q) for segment, q in rest.pose.items()},
+            "hips_height": round(rest.hips_height, 6),
+            **{key: {k: round(v, 6) for k, v in getattr(rest, key).items()} for key in QUALITIES},
+        },
+        "alone": _manners(model.alone),
+        "laban": {
+            "selected": list(laban.selected),
+            **{key: _plain(getattr(laban, key)) for key in LABAN},
+            "surface": {
+                "sigma": round(laban.surface.sigma, 6),
+                "ridge": laban.surface.ridge,
+                **{key: _plain(getattr(laban.surface, key)) for key in SURFACE},
+            },
+        },
+        "changes": {label: _plain(change) for label, change in model.changes.items()},
+    }
+    return json.dumps(data, ensure_ascii=False, separators=(",", ":")) + "\n"
+
+
+def _manners(manners: Manners) -> dict[str, Any]:
+    return {
+        "middle": _plain(manners.middle),
+        "scale": _plain(manners.scale),
+        "names": list(manners.planes.names),
+        "weights": _plain(manners.planes.weights),
+        "offsets": _plain(manners.planes.offsets),
+    }
+
+
+def _read(text: str, where: str) -> EmotionModel:
+    try:
+        data = json.loads(text)
+        if data["version"] != VERSION:
+            raise MienError(f"{where}: is a model of version {data['version']!r}, this mien reads {VERSION}")
+        model = EmotionModel(
+            card=data["card"],
+            places={label: Point(*place) for label, place in data["places"].items()},
+            change=_read_manners(data["change"]),
+            rest=_read_rest(data["rest"]),
+            alone=_read_manners(data["alone"]),
+            laban=_read_laban(data["laban"]),
+            changes={label: np.array(change, float) for label, change in data["changes"].items()},
+        )
+        # What does not fit together shows when it is used once.
+        model.place(model.change.probabilities(np.zeros(len(FEATURES))))
+        model.place(model.alone.probabilities(np.zeros(len(FEATURES))))
+        model.laban.place(np.zeros(len(DERIVED)))
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError) as error:
+        if isinstance(error, MienError):
+            raise
+        raise MienError(f"{where}: is no model of emotion that mien learn wrote ({error!r:.80})") from None
+    return model
+
+
+def _read_manners(data: dict[str, Any]) -> Manners:
+    weights, offsets = np.array(data["weights"], float), np.array(data["offsets"], float)
+    planes = Discriminant(tuple(data["names"]), weights, offsets)
+    return Manners(np.array(data["middle"], float), np.array(data["scale"], float), planes)
+
+
+def _read_rest(data: dict[str, Any]) -> Manner:
+    pose = {segment: np.array(q, float) for segment, q in data["pose"].items()}
+    return Manner(pose, float(data["hips_height"]), **{key: dict(data[key]) for key in QUALITIES})
+
+
+def _read_laban(data: dict[str, Any]) -> Laban:
+    about = data["surface"]
+    parts = {key: np.array(about[key], float) for key in SURFACE}
+    surface = Radial("gaussian", sigma=float(about["sigma"]), ridge=float(about["ridge"]), **parts)
+    arrays = {key: np.array(data[key], float) for key in LABAN}
+    return Laban(tuple(int(i) for i in data["selected"]), surface=surface, **arrays)
+
+
+def _plain(values: Array) -> Any:
+    return np.round(np.asarray(values, float), 6).tolist()
