@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import crude
+import learned
 from acted import STYLES, Take
 
 import mien
@@ -88,5 +89,10 @@ METHODS: dict[str, Method] = {
     "default-bare": presets(edit=bare),
     "crude": Method({style: style for style in STYLES}, learn=crude.learn),
     "crude-bare": Method({style: style for style in STYLES}, learn=partial(crude.learn, keep_safe=False)),
+    "learned": Method({style: style for style in STYLES}, learn=learned.learn),
+    "learned-bare": Method({style: style for style in STYLES}, learn=partial(learned.learn, safe=False)),
+    "learned-unfitted": Method(
+        {style: style for style in STYLES}, learn=partial(learned.learn, safe=False, fit=False)
+    ),
     "nothing": Method({style: style for style in STYLES}, nothing),
 }

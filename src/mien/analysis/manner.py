@@ -6,7 +6,7 @@ amplitude for each limb, and the evenness of movement. Skeletons, units, frame r
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -82,8 +82,8 @@ class Manner:
 class Change:
     """What differs in manner: what to do to one motion to make it move like another.
 
-    ``pose`` turns in degrees, ``hips_height`` in leg lengths (added); ``swing`` limb -> gain, ``rate`` and
-    ``sharpness`` as factors.
+    ``pose`` turns in degrees, ``hips_height`` and ``hips_forward`` in leg lengths (added); ``swing`` limb ->
+    gain, ``rate`` and ``sharpness`` as factors.
     """
 
     pose: Pose
@@ -91,6 +91,7 @@ class Change:
     swing: Mapping[str, float]
     rate: float
     sharpness: float
+    hips_forward: float = 0.0
 
     def __mul__(self, amount: float) -> Self:
         """Return so much of the change: 0 is none, 2 twice as much."""
@@ -100,7 +101,25 @@ class Change:
             {limb: gain**amount for limb, gain in self.swing.items()},
             self.rate**amount,
             self.sharpness**amount,
+            self.hips_forward * amount,
         )
+
+    def symmetric(self) -> Self:
+        """Return the change with both sides alike: the mean of itself and its mirror image."""
+        turns: dict[str, tuple[float, float, float]] = {}
+        for segment, (x, y, z) in self.pose.turns.items():
+            side, _, role = segment.partition("_")
+            if side not in SIDES:
+                turns[segment] = (x, 0.0, 0.0)
+                continue
+            u, v, w = self.pose.turns.get(f"{'right' if side == 'left' else 'left'}_{role}", (x, -y, -z))
+            turns[segment] = (0.5 * (x + u), 0.5 * (y - v), 0.5 * (z - w))
+        swing = dict(self.swing)
+        for limb in ("arm", "leg"):
+            sides = [f"{side}_{limb}" for side in SIDES]
+            if all(name in swing for name in sides):
+                swing |= dict.fromkeys(sides, float(np.sqrt(swing[sides[0]] * swing[sides[1]])))
+        return replace(self, pose=Pose(turns), swing=swing)
 
 
 def difference(before: Manner, after: Manner) -> Change:
@@ -137,16 +156,17 @@ def mean_change(changes: Iterable[Change]) -> Change:
     found = list(changes)
     if not found:
         raise MienError("the mean of no changes is not defined; give one or more")
-    pose, height, rate, sharpness = Pose(), 0.0, 1.0, 1.0
+    pose, height, ahead, rate, sharpness = Pose(), 0.0, 0.0, 1.0, 1.0
     swing: dict[str, float] = {}
     for change in found:
         part = change * (1.0 / len(found))
         pose, height = pose + part.pose, height + part.hips_height
+        ahead += part.hips_forward
         rate, sharpness = rate * part.rate, sharpness * part.sharpness
         swing = {limb: swing.get(limb, 1.0) * gain for limb, gain in part.swing.items()} | {
             limb: gain for limb, gain in swing.items() if limb not in part.swing
         }
-    return Change(pose, height, swing, rate, sharpness)
+    return Change(pose, height, swing, rate, sharpness, ahead)
 
 
 def usual_manner(manners: Iterable[Manner]) -> Manner:

@@ -60,6 +60,9 @@ def posture(
     hips_height: Annotated[
         float, Param("hips higher (+) or lower (-)", -0.5, 0.1, "leg lengths", neutral=0.0)
     ] = 0.0,
+    hips_forward: Annotated[
+        float, Param("hips to the front (+) or back (-) of the feet", -0.3, 0.3, "leg lengths", neutral=0.0)
+    ] = 0.0,
     pose: Annotated[
         str, Param("a named pose (head_down, elbows_out, arms_legs_in) or one in a line")
     ] = "none",
@@ -69,8 +72,8 @@ def posture(
 ) -> Motion:
     """Hold head, trunk, arms and legs differently, through the whole clip.
 
-    Angles in degrees are added to every frame, ``hips_height`` in leg lengths to the height of the
-    hips. ``pose`` is the name of a pose in ``kinematics.poses.POSES`` or the line that
+    Angles in degrees are added to every frame, ``hips_height`` and ``hips_forward`` in leg lengths to the
+    place of the hips. ``pose`` is the name of a pose in ``kinematics.poses.POSES`` or the line that
     ``str(Pose)`` writes, for example of ``pose_between(neutral, sad)`` from two captured stills.
     ``anatomical`` is the default for what real clips show: with ``additive`` a sharply bent elbow opens
     instead of bending (a punch: by 8 degrees where 25 more were asked), and both other methods turn
@@ -90,7 +93,12 @@ def posture(
         "legs": legs,
     }
     values = {name: value + amount * named.get(name, 0.0) for name, value in values.items()}
-    if not (hips_height or any(values.values()) or any(map(any, (captured * amount).turns.values()))):
+    if not (
+        hips_height
+        or hips_forward
+        or any(values.values())
+        or any(map(any, (captured * amount).turns.values()))
+    ):
         return motion
     body = Body.of(motion)
     turned, positions = world(motion)
@@ -100,8 +108,8 @@ def posture(
     weights = _fade_out(motion, body, positions, facing) if fade else {}
     rotations = add_pose(motion, body, whole, weights=weights, method=method)
     translations = motion.translations
-    if values["lean"] or hips_height:
-        translations = _shift_hips(motion, body, values["lean"], hips_height)
+    if values["lean"] or hips_height or hips_forward:
+        translations = _shift_hips(motion, body, values["lean"], hips_height, hips_forward)
     return motion.with_(rotations=rotations, translations=translations)
 
 
@@ -182,10 +190,10 @@ def _low_pass(values: Array, fps: float) -> Array:
     return smooth
 
 
-def _shift_hips(motion: Motion, body: Body, lean: float, height: float) -> Array:
-    """Return the translations with the hips moved: round the ankles by ``lean``, and up by ``height``."""
+def _shift_hips(motion: Motion, body: Body, lean: float, height: float, ahead: float) -> Array:
+    """Return the translations with the hips moved: round the ankles by ``lean``, up and to the front."""
     angle = radians(lean)
-    shift = sin(angle) * body.forward + (cos(angle) - 1.0 + height) * body.up
+    shift = (sin(angle) + ahead) * body.forward + (cos(angle) - 1.0 + height) * body.up
     translations = np.array(motion.translations)
     inner = quaternion.rotate(hips_frame(motion, body, steady=True), body.leg_length * shift)
     translations[:, body.roles["hips"]] += inner

@@ -3,12 +3,16 @@
 import numpy as np
 
 from ..motion import Motion
+from ..rotations import quaternion
 from ..signal.bridging import smooth
 from ..typing import Array
-from .body import Body
+from .body import SIDES, Body
 from .contacts import Contacts
 from .dynamics import dynamics
+from .fk import world
+from .heading import heading_rotation
 from .legs import Placed, over_feet
+from .mass import mass_model
 from .support import way_in
 
 CALM = 0.3  # seconds: a pelvis that is moved faster pushes the zero-moment point out again
@@ -33,6 +37,15 @@ def balanced(motion: Motion, body: Body, contacts: Contacts, allowed: Array) -> 
         shift *= np.minimum(1.0, MOST * body.leg_length / np.maximum(length, 1e-12))
         out = over_feet(start, shift, contacts.feet, body)
     return out
+
+
+def weight_ahead(motion: Motion, body: Body) -> float:
+    """Return how far the centre of mass is usually ahead of the middle of the ankles, in leg lengths."""
+    rotations, positions = world(motion)
+    centre = mass_model(motion, body).centre_of_mass(rotations, positions)
+    ankles = positions[:, [body.roles[f"{side}_ankle"] for side in SIDES]].mean(axis=1)
+    ahead = quaternion.rotate(heading_rotation(positions, body), body.forward)
+    return float(np.einsum("ti,ti->t", centre - ankles, ahead).mean() / body.leg_length)
 
 
 def astray(pose: Placed, body: Body, contacts: Contacts) -> Array:

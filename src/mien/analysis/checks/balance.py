@@ -8,7 +8,7 @@ the centre of mass is, which in a walk swings out with every step.
 import numpy as np
 
 from ...kinematics.support import outside
-from .check import Check, Measured
+from .check import LASTING_FORCES, Check, Measured
 from .scene import Scene
 
 MOST = 100.0  # centimetres: further out, the number says nothing more
@@ -38,5 +38,6 @@ CHECK = Check(
     tolerance=5.0,
     factor=1.25,
     share=0.2,
+    lasting=LASTING_FORCES,
     measure=measure,
 )

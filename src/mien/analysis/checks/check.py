@@ -8,6 +8,11 @@ import numpy as np
 from ...typing import Array
 from .scene import Scene
 
+# Seconds that too much force has to last. Weight goes from foot to foot within a tenth or two, and when
+# exactly
+# a foot lets go is not known so well; 25 cm out of balance for a tenth of a second is a centimetre of
+# falling.
+LASTING_FORCES = 0.2
 NEAR = 0.3  # seconds: what a source shows so near in time may move there with a limb's timing
 
 

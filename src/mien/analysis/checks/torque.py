@@ -4,7 +4,7 @@ Torques of inverse dynamics (``kinematics.dynamics``), as multiples of what men 
 captured movements pass 1, as muscles that brake are stronger and as noise counts twice in accelerations.
 """
 
-from .check import Check, Measured
+from .check import LASTING_FORCES, Check, Measured
 from .scene import Scene
 
 
@@ -15,5 +15,13 @@ def measure(scene: Scene) -> Measured:
 
 
 CHECK = Check(
-    "torque", "strength needed", "x strength", 2, limit=3.0, tolerance=0.3, factor=1.5, measure=measure
+    "torque",
+    "strength needed",
+    "x strength",
+    2,
+    limit=3.0,
+    tolerance=0.3,
+    factor=1.5,
+    measure=measure,
+    lasting=LASTING_FORCES,
 )
