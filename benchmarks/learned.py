@@ -12,7 +12,7 @@ from mien.emotion.example import as_recipe, fitted
 
 
 def learn(
-    pairs: Sequence[tuple[Take, Take]], *, safe: bool = True, fit: bool = True
+    pairs: Sequence[tuple[Take, Take]], *, safe: bool = True, fit: bool = True, amount: float = 1.0
 ) -> Callable[[mien.Motion, str], mien.Motion]:
     """Return what edits a motion into a style, from (acted, neutral) takes."""
     found: dict[str, list[Change]] = defaultdict(list)
@@ -21,7 +21,7 @@ def learn(
         body = mien.Body.of(rest)
         manners = Manner.of(rest, body=body), Manner.of(acted.load(), body=body)
         found[acted.style].append(difference(*manners))
-    changes = {style: mean_change(some).symmetric() for style, some in found.items()}
+    changes = {style: mean_change(some).symmetric() * amount for style, some in found.items()}
     return partial(_edit, changes=changes, safe=safe, fit=fit)
 
 

@@ -90,6 +90,7 @@ METHODS: dict[str, Method] = {
     "crude": Method({style: style for style in STYLES}, learn=crude.learn),
     "crude-bare": Method({style: style for style in STYLES}, learn=partial(crude.learn, keep_safe=False)),
     "learned": Method({style: style for style in STYLES}, learn=learned.learn),
+    "learned-stronger": Method({style: style for style in STYLES}, learn=partial(learned.learn, amount=1.3)),
     "learned-bare": Method({style: style for style in STYLES}, learn=partial(learned.learn, safe=False)),
     "learned-unfitted": Method(
         {style: style for style in STYLES}, learn=partial(learned.learn, safe=False, fit=False)

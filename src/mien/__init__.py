@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from .emotion.reading import read as read
     from .emotion.resolve import apply as apply
     from .emotion.resolve import edit as edit
+    from .emotion.toward import like as like
+    from .emotion.toward import toward as toward
     from .errors import BodyError as BodyError
     from .errors import FormatError as FormatError
     from .errors import MienError as MienError
@@ -73,6 +75,8 @@ _HOME = {
     "render": ".",
     "samples": ".",
     "save": ".formats",
+    "toward": ".emotion.toward",
+    "like": ".emotion.toward",
     "write_recipe": ".emotion.files",
 }
 

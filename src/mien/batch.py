@@ -6,7 +6,7 @@ import re
 import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, TypeVar
@@ -16,12 +16,14 @@ import numpy as np
 from .analysis.effort import Effort, effort
 from .analysis.laban import Features, features
 from .curve import Varying, values
+from .edits.order import merged
 from .edits.registry import EDITS
 from .emotion.files import read_provenance, sidecar_of
 from .emotion.model import load_model
 from .emotion.reading import Reading, read
 from .emotion.recipe_text import format_recipe
 from .emotion.resolve import done
+from .emotion.toward import Aim, Like
 from .errors import FormatError, MienError, RecipeError, sentence
 from .formats import FORMATS, files, load, save
 from .kinematics.roles import known_roles
@@ -34,11 +36,15 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class Job:
-    """One file to edit. ``read`` are the options of ``load``; ``sidecar`` writes what was done beside it."""
+    """One file to edit. ``read`` are the options of ``load``; ``sidecar`` writes what was done beside it.
+
+    With a ``goal`` each clip has a recipe of its own, which the steps of ``recipe`` are added to.
+    """
 
     source: Path
     target: Path
     recipe: Recipe
+    goal: Aim | Like | None = None
     strength: Varying = 1.0
     parts: tuple[str, ...] = ()
     span: tuple[float, float] | None = None
@@ -154,7 +160,11 @@ def analyse_file(subject: Subject) -> Analysis:
 def edited(job: Job) -> tuple[Motion, Motion]:
     """Return the motion of a job as it is read and as it is edited, without writing it."""
     motion = opened(job.source, body=job.body, **job.read)
-    after = done(motion, job.recipe, strength=job.strength, parts=job.parts, span=job.span)
+    recipe = job.recipe
+    if job.goal:
+        own = job.goal.recipe(motion)
+        recipe = replace(recipe, steps=merged([own.steps, recipe.steps]))
+    after = done(motion, recipe, strength=job.strength, parts=job.parts, span=job.span)
     return motion, after
 
 
@@ -166,14 +176,15 @@ def doubts(job: Job, before: Motion, after: Motion) -> tuple[str, ...]:
     from .analysis.inspect import doubts as odd
     from .emotion.safe import mended
 
-    return (*_damage(job, before), *odd(before), *mended(after), *_nothing(job, before, after))
+    reached = [job.goal.reached(before, after)] if isinstance(job.goal, Aim) else []
+    return (*_damage(job, before), *odd(before), *mended(after), *reached, *_nothing(job, before, after))
 
 
 def _nothing(job: Job, before: Motion, after: Motion) -> list[str]:
     """Return why nothing moves differently, where that was not asked for."""
     steps = job.recipe.steps
     same = len(before) == len(after) and before.frame_time == after.frame_time
-    if not steps or not same or not any(values(job.strength)):
+    if not (steps or job.goal) or not same or not any(values(job.strength)):
         return []
     if not all(
         map(np.array_equal, (before.rotations, before.translations), (after.rotations, after.translations))

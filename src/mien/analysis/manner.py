@@ -62,9 +62,7 @@ class Manner:
         turned = segment_rotations(motion, body)
         pose = {segment: mean_rotation(q) for segment, q in turned.items()}
         moved = {
-            limb: np.concatenate(
-                [_to_and_fro(turned[s], pose[s], motion.frame_time) for s in segments], axis=-1
-            )
+            limb: np.concatenate([_turns(turned[s], pose[s], motion.frame_time) for s in segments], axis=-1)
             for limb, segments in ((limb, [s for s in own if s in turned]) for limb, own in LIMBS.items())
             if segments
         }
@@ -72,7 +70,7 @@ class Manner:
         return cls(
             pose,
             _hips_height(motion, body),
-            {limb: _size(way) for limb, way in moved.items()},
+            {limb: _size(_to_and_fro(way, motion.frame_time)) for limb, way in moved.items()},
             {limb: found[0] for limb, found in quick.items() if found},
             {limb: found[1] for limb, found in quick.items() if found},
         )
@@ -191,11 +189,15 @@ def usual_manner(manners: Iterable[Manner]) -> Manner:
     return Manner(pose, float(np.mean([m.hips_height for m in found])), *qualities)
 
 
-def _to_and_fro(q: Array, mean: Array, frame_time: float) -> Array:
-    """Return how a segment turns about its slow mean (T, 3), in radians, without noise."""
+def _turns(q: Array, mean: Array, frame_time: float) -> Array:
+    """Return how a segment turns about its mean (T, 3), in radians, without noise."""
     turns = quaternion.log(quaternion.multiply(quaternion.conjugate(mean), q))
-    clean = smooth(turns, sigma=_sigma(FASTEST) / frame_time)
-    moved: Array = clean - smooth(turns, sigma=_sigma(SLOWEST) / frame_time)
+    return smooth(turns, sigma=_sigma(FASTEST) / frame_time)
+
+
+def _to_and_fro(turns: Array, frame_time: float) -> Array:
+    """Return turns (T, K) about their slow mean."""
+    moved: Array = turns - smooth(turns, sigma=_sigma(SLOWEST) / frame_time)
     return moved
 
 
@@ -213,7 +215,8 @@ def _quickness(moved: Array, frame_time: float) -> tuple[float, float] | None:
     """Return the rate and the sharpness of movement (T, K); None where there is none to speak of."""
     if len(moved) < 3:
         return None
-    way, fast, hard = (_size(np.diff(moved, order, axis=0) / frame_time**order) for order in range(3))
+    around = moved - moved.mean(axis=0)
+    way, fast, hard = (_size(np.diff(around, order, axis=0) / frame_time**order) for order in range(3))
     return (fast / way, hard * way / fast**2) if way > STILL and fast > 0.0 else None
 
 

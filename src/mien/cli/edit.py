@@ -29,6 +29,29 @@ Emotion = Annotated[
 RecipeFile = Annotated[
     Path | None, typer.Option("--recipe", "-r", help="A recipe file (.toml or .json), or a clip's sidecar.")
 ]
+To = Annotated[
+    str | None,
+    typer.Option(
+        metavar="WORD", help="A word of the circumplex to move to: happy, bored, calm, annoyed, ..."
+    ),
+]
+Valence = Annotated[float | None, typer.Option(help="Move to this valence: -1 unpleasant, 1 pleasant.")]
+Arousal = Annotated[float | None, typer.Option(help="Move to this arousal: -1 calm, 1 intense.")]
+By = Annotated[str, typer.Option(metavar="V,A", help="Move by so much valence and arousal, such as +.3,0.")]
+Start = Annotated[
+    str,
+    typer.Option(metavar="WORD", help="Where the clips are now, a word or V,A; without it in the middle."),
+]
+Way = Annotated[
+    str, typer.Option("--method", help="How to move there: recipe (presets), rules or joint (learned).")
+]
+FromExample = Annotated[
+    Path | None, typer.Option(help="A clip of anyone whose manner to take, on any skeleton.")
+]
+ExampleNeutral = Annotated[
+    Path | None,
+    typer.Option(help="The neutral clip that the example differs from; without it, each clip itself."),
+]
 Strength = Annotated[
     str,
     typer.Option(
@@ -76,6 +99,14 @@ def edit(
     clips: a.Clips,
     emotion: Emotion = None,
     recipe: RecipeFile = None,
+    to: To = None,
+    valence: Valence = None,
+    arousal: Arousal = None,
+    by: By = "",
+    start: Start = "",
+    method: Way = "recipe",
+    from_example: FromExample = None,
+    example_neutral: ExampleNeutral = None,
     strength: Strength = "1",
     parts: Parts = "",
     span: Span = "",
@@ -94,7 +125,7 @@ def edit(
     *,
     flags: Mapping[str, Mapping[str, Any]],
 ) -> None:
-    """Change what clips express: by an emotion, a recipe, or any edit's own flags.
+    """Change what clips express: by an emotion, a place, an example, a recipe, or any edit's own flags.
 
     Writes CLIP_EMOTION.bvh beside each clip (or where -o says) with the same skeleton, channels and
     frame rate, and says in CLIP_EMOTION.bvh.recipe.toml how it was made. Strength, parts and span
@@ -106,18 +137,26 @@ def edit(
     mien edit walk.bvh --emotion sad --strength 0.8
 
     mien edit "takes/*.bvh" --emotion tired --posture-head 10 -o tired/
+
+    mien edit walk.bvh --valence 0.6 --arousal -0.2
+
+    mien edit walk.bvh --from-example sad_wave.bvh --example-neutral wave.bvh
     """
     from dataclasses import replace
 
     from ..batch import Job
+    from .goals import Asked, goal_of
     from .inputs import STDOUT
 
-    made = _recipe(emotion, recipe, flags, foot_plant)
+    place = Asked(to, valence, arousal, by, start, method)
+    goal = goal_of(place, from_example, example_neutral)
+    made = _recipe(emotion, recipe, flags, foot_plant, goal.name if goal else "")
     made = made if safe is None else replace(made, safe=safe)
     whole = Job(
         Path(),
         Path(),
         _eased(made, ease, bool(span)),
+        goal=goal,
         strength=_checked_strength(strength),
         parts=_parts(parts),
         span=_span(span),
@@ -198,8 +237,9 @@ def _recipe(
     path: Path | None,
     flags: Mapping[str, Mapping[str, Any]],
     foot_plant: bool | None,
+    goal: str,
 ) -> "Recipe":
-    """Return what is to be done, checked before a single clip is read."""
+    """Return what is to be done, checked before a single clip is read; ``goal`` names where clips go."""
     from dataclasses import replace
 
     from ..edits import pipeline
@@ -211,12 +251,16 @@ def _recipe(
 
     if emotions and path:
         raise MienError("give --emotion or --recipe, not both")
-    if not (emotions or path or flags):
+    if goal and (emotions or path):
+        raise MienError("give an emotion, a recipe or a place or example to move to, one of them")
+    if not (emotions or path or flags or goal):
         raise MienError(
-            "say what to change: --emotion, --recipe or a flag of an edit "
+            "say what to change: --emotion, --to, --recipe or a flag of an edit "
             "(mien presets lists emotions, mien edit --help all flags, --repair-what floor mends a clip)"
         )
     recipe = _emotions(emotions) if emotions else resolve(existing(path)) if path else Recipe("edited", ())
+    if goal:
+        return Recipe(goal, compose((), flags, foot_plant=foot_plant), safe=True)
     if foot_plant is None and not path:
         foot_plant = True
     steps = compose(recipe.steps, flags, foot_plant=foot_plant)
@@ -312,7 +356,9 @@ def _plan(todo: "Sequence[Job]", as_json: bool) -> None:
         typer.echo(f"{job.source} -> {job.target}{f' ({needs})' if exists else ''}")
     for number, step in enumerate(steps, start=1):
         typer.echo(f"  {number}. {_described(step)}")
-    if not steps:
+    if job.goal:
+        typer.echo(f"  moved to {job.goal.name}: by steps that depend on the clip, before these")
+    elif not steps:
         typer.echo("  nothing is changed")
     elif job.recipe.safe:
         typer.echo("  then what breaks the body is mended or taken back (--no-safe leaves that out)")

@@ -1,0 +1,163 @@
+"""Move a motion to a place on the circumplex: to a word, to a point, or by so much from where it is.
+
+The way is a recipe. ``recipe`` (the default) interpolates the presets over the disc (``palette``): no data, a
+readable list of steps that can be tuned by hand. ``rules`` and ``joint`` are the synthesis of Aristidou et
+al. (2017), which need a learned model (``synthesis``). What comes out can be read back (``reading``).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, cast
+
+import numpy as np
+
+from ..analysis.manner import Manner, difference
+from ..errors import RecipeError, unknown
+from ..kinematics.body import Body
+from ..motion import Motion, require_motion
+from ..recipe import Recipe
+from .circumplex import Point, clamp, point
+from .example import fitted
+from .model import EmotionModel
+from .palette import recipe_at
+from .presets import OWN, preset
+from .reading import read
+from .resolve import Strength, edit
+
+Method = Literal["recipe", "rules", "joint"]
+METHODS = ("recipe", "rules", "joint")
+NOWHERE = Point(0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Aim:
+    """Where to: the place ``to``, from ``start``, in which way, and what it is called."""
+
+    to: Point
+    start: Point = NOWHERE
+    method: Method = "recipe"
+    name: str = "aimed"
+
+    def recipe(self, motion: Motion) -> Recipe:
+        """Return the recipe that moves a motion there; without steps where it is there already."""
+        require_motion(motion)
+        if self.to == self.start:
+            return Recipe(self.name, (), safe=True)
+        if self.method != "recipe":
+            from .synthesis import synthesise
+
+            return synthesise(motion, self.to, start=self.start, method=self.method)
+        if self.start == NOWHERE and self.name in OWN:
+            return preset(self.name)
+        return Recipe(self.name, recipe_at(*self.to, start=self.start).steps, safe=True)
+
+    def reached(self, before: Motion, after: Motion, *, model: EmotionModel | None = None) -> str:
+        """Return in words what was asked for and what a learned model reads in the result."""
+        found = read(after, neutral=before, model=model)
+        valence, arousal = np.add(self.start, found.place)
+        away = float(np.hypot(self.to.valence - valence, self.to.arousal - arousal))
+        return (
+            f"asked for valence {self.to.valence:+.2f}, arousal {self.to.arousal:+.2f}; it reads as "
+            f"{valence:+.2f}, {arousal:+.2f} ({next(iter(found.labels))}), {away:.2f} away"
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Like:
+    """In the manner of an example: what ``example`` has that ``neutral``, or the clip itself, has not."""
+
+    example: Manner
+    neutral: Manner | None = None
+    name: str = "example"
+
+    def recipe(self, motion: Motion) -> Recipe:
+        """Return the recipe that makes a motion differ from itself as the example from its neutral clip."""
+        rest = self.neutral or Manner.of(motion)
+        return fitted(motion, difference(rest, self.example), name=self.name)
+
+
+def aim(
+    to: str | Point | Sequence[float] | None = None,
+    *,
+    by: Sequence[float] | None = None,
+    start: str | Point | Sequence[float] | None = None,
+    method: str = "recipe",
+) -> Aim:
+    """Return where to move: ``to`` a word or a point, or ``by`` so much from the ``start``.
+
+    Points are valence and arousal. ``start`` is where the motion is now, a word or a point, the centre if it
+    is not said. Raises ``RecipeError`` for a word that is not on the disc, a method that is not known, or
+    neither ``to`` nor ``by``.
+
+    >>> aim("sad").to, aim(by=(0.3, 0.0)).to
+    (Point(valence=-0.648, arousal=-0.267), Point(valence=0.3, arousal=0.0))
+    """
+    if method not in METHODS:
+        raise RecipeError(unknown("method", method, METHODS))
+    here = _place(start) if start is not None else NOWHERE
+    if by is not None and to is None:
+        valence, arousal = _pair(by)
+        place = clamp(here.valence + valence, here.arousal + arousal)
+        return Aim(place, here, cast(Method, method), f"by {valence:g},{arousal:g}")
+    if to is None or by is not None:
+        raise RecipeError("say where to: a word or a point (to), or by how much (by), not both")
+    place = _place(to)
+    name = to if isinstance(to, str) else f"at {place.valence:g},{place.arousal:g}"
+    return Aim(place, here, cast(Method, method), name)
+
+
+def toward(
+    motion: Motion,
+    to: str | Point | Sequence[float] | None = None,
+    *,
+    by: Sequence[float] | None = None,
+    start: str | Point | Sequence[float] | None = None,
+    method: str = "recipe",
+    strength: Strength = 1.0,
+    safe: bool | None = None,
+) -> Motion:
+    """Return the motion moved to a place on the circumplex; arguments as in ``aim`` and ``edit``.
+
+    ``strength`` 0 is the motion itself. Raises ``RecipeError`` for what is unknown, ``BodyError`` where no
+    body is found.
+
+    >>> mien.toward(walk, "bored"), mien.toward(walk, (0.6, -0.2)), mien.toward(walk, by=(0.3, 0))
+    """
+    recipe = aim(to, by=by, start=start, method=method).recipe(motion)
+    return edit(motion, recipe, strength=strength, safe=safe)
+
+
+def like(
+    motion: Motion, example: Motion, *, neutral: Motion | None = None, strength: Strength = 1.0
+) -> Motion:
+    """Return the motion in the manner of an example, of anyone on any skeleton.
+
+    What differs between ``example`` and ``neutral``, best one action of one person, is done to the motion
+    (Amaya, Bruderlin & Calvert 1996); without ``neutral`` the motion itself is that. Raises ``BodyError``
+    where no body is found.
+    """
+    return edit(motion, as_like(example, neutral).recipe(motion), strength=strength)
+
+
+def as_like(example: Motion, neutral: Motion | None = None) -> Like:
+    """Return what an example says, compared with its neutral clip."""
+    if neutral is None:
+        return Like(Manner.of(example), None, example.name or "example")
+    body = Body.of(neutral)
+    own = body if example.skeleton.names == neutral.skeleton.names else None
+    manners = Manner.of(example, body=own), Manner.of(neutral, body=body)
+    return Like(*manners, example.name or "example")
+
+
+def _place(where: str | Point | Sequence[float]) -> Point:
+    return point(where) if isinstance(where, str) else clamp(*_pair(where))
+
+
+def _pair(values: Sequence[float]) -> tuple[float, float]:
+    try:
+        valence, arousal = (float(value) for value in values)
+    except (TypeError, ValueError):
+        raise RecipeError(f"a point is two numbers, valence and arousal, not {values!r:.60}") from None
+    if not (abs(valence) <= 2.0 and abs(arousal) <= 2.0):
+        raise RecipeError(f"valence and arousal are from -1 to 1, got {valence:g} and {arousal:g}")
+    return valence, arousal
