@@ -22,17 +22,17 @@ WORDS: Mapping[str, tuple[str, ...]] = {
     "active": ("active", "excited"),
     "angry": ("angry",),
     "childish": ("childish",),
-    "chimpira": ("chimpira", "delinquent"),
+    "chimpira": ("chimpira", "swaggering"),
     "feminine": ("feminine",),
     "giant": ("giant",),
     "happy": ("happy",),
     "masculinity": ("masculine",),
     "musical": ("musical",),
-    "not-confident": ("not-confident", "unconfident", "shy"),
-    "old": ("old", "elderly"),
+    "not-confident": ("not-confident", "timid"),
+    "old": ("old",),
     "proud": ("proud",),
     "sad": ("sad",),
-    "tired": ("tired", "exhausted"),
+    "tired": ("tired",),
 }
 # Presets that only come near to a style: judged with ``--near``, never counted.
 NEAR: Mapping[str, tuple[str, ...]] = {

@@ -115,7 +115,8 @@ def settings_at(valence: float, arousal: float, *, table: str = "ratings") -> Ar
 def recipe_at(valence: float, arousal: float, *, start: Point = CENTRE, table: str = "ratings") -> Recipe:
     """Return the recipe that leads from one point of the disc, the centre unless said, to another.
 
-    At the word of an anchor it has that preset's numbers; from a point to itself it has no steps.
+    At the word of an anchor it has that preset's numbers, as far as knobs stand for them; from a point to
+    itself it has no steps.
     """
     numbers = settings_at(valence, arousal, table=table) - settings_at(*start, table=table)
     name = f"valence {valence:.2f} arousal {arousal:.2f}"
@@ -123,9 +124,9 @@ def recipe_at(valence: float, arousal: float, *, start: Point = CENTRE, table: s
 
 
 def _covers(step: Step, knob: Knob) -> bool:
-    """Return whether a step does what a knob stands for, on the knob's parts."""
+    """Return whether a step does what a knob stands for, on all of the knob's parts."""
     same = dict(knob.fixed).get("where", "everywhere") == step.parameters.get("where", "everywhere")
-    return same and (not step.parts or not knob.parts or bool(set(step.parts) & set(knob.parts)))
+    return same and (not step.parts or not knob.parts or set(knob.parts) <= set(step.parts))
 
 
 def _neutral(knob: Knob) -> float:
