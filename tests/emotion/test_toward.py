@@ -24,21 +24,21 @@ def same(one: Motion, other: Motion) -> bool:
 
 
 def test_where_it_is_already_nothing_changes_to_the_last_bit(walk: Motion) -> None:
-    assert same(mien.toward(walk, (0.0, 0.0)), walk)
+    assert same(mien.toward(walk, to=(0.0, 0.0)), walk)
     assert same(mien.toward(walk, by=(0.0, 0.0)), walk)
-    assert same(mien.toward(walk, "sad", start="sad"), walk)
-    assert same(mien.toward(walk, "sad", strength=0.0), walk)
+    assert same(mien.toward(walk, to="sad", start="sad"), walk)
+    assert same(mien.toward(walk, to="sad", strength=0.0), walk)
     assert same(mien.like(walk, walk, neutral=walk), walk)
 
 
 def test_a_word_that_is_a_preset_is_that_preset(walk: Motion) -> None:
-    assert same(mien.toward(walk, "tired"), mien.edit(walk, "tired"))
+    assert same(mien.toward(walk, to="tired"), mien.edit(walk, "tired"))
 
 
 def test_what_is_asked_is_what_is_read(walk: Motion) -> None:
-    sad = mien.read(mien.toward(walk, "sad"), neutral=walk).place
+    sad = mien.read(mien.toward(walk, to="sad"), neutral=walk).place
     assert sad.valence < -0.3
-    excited = mien.read(mien.toward(walk, (0.7, 0.7), safe=False), neutral=walk).place
+    excited = mien.read(mien.toward(walk, to=(0.7, 0.7), safe=False), neutral=walk).place
     assert excited.arousal > sad.arousal + 0.2
 
 
@@ -46,7 +46,7 @@ def test_stronger_is_further(walk: Motion) -> None:
     """The change of manner grows with the strength, in posture, size and speed alike."""
     rest = Manner.of(walk)
     changes = [
-        difference(rest, Manner.of(mien.toward(walk, "bored", strength=s, safe=False)))
+        difference(rest, Manner.of(mien.toward(walk, to="bored", strength=s, safe=False)))
         for s in (0.3, 0.6, 1.0)
     ]
     heads = [c.pose.turns["trunk"][0] for c in changes]
@@ -58,7 +58,7 @@ def test_stronger_is_further(walk: Motion) -> None:
 
 
 def test_an_aim_says_where_to() -> None:
-    assert aim("sad").to == point("sad")
+    assert aim(to="sad").to == point("sad")
     assert aim(by=(0.3, 0.1), start="sad").to == pytest.approx((-0.348, -0.167))
     assert aim(by=(2.0, 0.0)).to == pytest.approx((1.0, 0.0))
     for wrong in (
@@ -72,7 +72,7 @@ def test_an_aim_says_where_to() -> None:
         with pytest.raises(RecipeError):
             aim(**wrong)  # type: ignore[arg-type]
     with pytest.raises(RecipeError, match="recipe"):
-        aim("sad", method="recip")
+        aim(to="sad", method="recip")
 
 
 def test_an_example_is_followed_whoever_gives_it(walk: Motion) -> None:

@@ -31,9 +31,7 @@ RecipeFile = Annotated[
 ]
 To = Annotated[
     str | None,
-    typer.Option(
-        metavar="WORD", help="A word of the circumplex to move to: happy, bored, calm, annoyed, ..."
-    ),
+    typer.Option(metavar="WORD", help="A word of the circumplex to move to, such as happy, bored or calm."),
 ]
 Valence = Annotated[float | None, typer.Option(help="Move to this valence: -1 unpleasant, 1 pleasant.")]
 Arousal = Annotated[float | None, typer.Option(help="Move to this arousal: -1 calm, 1 intense.")]

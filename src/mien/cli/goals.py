@@ -56,10 +56,10 @@ def _aim(asked: Asked, point: bool) -> "Aim":
 
     start = _numbers(asked.start, "--start") if "," in asked.start else asked.start or None
     if point:
-        return aim((asked.valence or 0.0, asked.arousal or 0.0), start=start, method=asked.method)
+        return aim(to=(asked.valence or 0.0, asked.arousal or 0.0), start=start, method=asked.method)
     if asked.by:
         return aim(by=_numbers(asked.by, "--by"), start=start, method=asked.method)
-    return aim(asked.to, start=start, method=asked.method)
+    return aim(to=asked.to, start=start, method=asked.method)
 
 
 def _example(example: Path, neutral: Path | None) -> "Like":
@@ -68,7 +68,7 @@ def _example(example: Path, neutral: Path | None) -> "Like":
     from ..emotion.toward import as_like
 
     rest = a.opened(neutral, None, False, None) if neutral else None
-    return replace(as_like(a.opened(example, None, False, None), rest), name=f"like {example.stem}")
+    return replace(as_like(a.opened(example, None, False, None), neutral=rest), name=f"like {example.stem}")
 
 
 def _numbers(text: str, flag: str) -> tuple[float, float]:

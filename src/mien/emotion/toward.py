@@ -77,8 +77,8 @@ class Like:
 
 
 def aim(
-    to: str | Point | Sequence[float] | None = None,
     *,
+    to: str | Point | Sequence[float] | None = None,
     by: Sequence[float] | None = None,
     start: str | Point | Sequence[float] | None = None,
     method: str = "recipe",
@@ -89,7 +89,7 @@ def aim(
     is not said. Raises ``RecipeError`` for a word that is not on the disc, a method that is not known, or
     neither ``to`` nor ``by``.
 
-    >>> aim("sad").to, aim(by=(0.3, 0.0)).to
+    >>> aim(to="sad").to, aim(by=(0.3, 0.0)).to
     (Point(valence=-0.648, arousal=-0.267), Point(valence=0.3, arousal=0.0))
     """
     if method not in METHODS:
@@ -108,8 +108,8 @@ def aim(
 
 def toward(
     motion: Motion,
-    to: str | Point | Sequence[float] | None = None,
     *,
+    to: str | Point | Sequence[float] | None = None,
     by: Sequence[float] | None = None,
     start: str | Point | Sequence[float] | None = None,
     method: str = "recipe",
@@ -121,9 +121,9 @@ def toward(
     ``strength`` 0 is the motion itself. Raises ``RecipeError`` for what is unknown, ``BodyError`` where no
     body is found.
 
-    >>> mien.toward(walk, "bored"), mien.toward(walk, (0.6, -0.2)), mien.toward(walk, by=(0.3, 0))
+    >>> mien.toward(walk, to="bored"), mien.toward(walk, to=(0.6, -0.2)), mien.toward(walk, by=(0.3, 0))
     """
-    recipe = aim(to, by=by, start=start, method=method).recipe(motion)
+    recipe = aim(to=to, by=by, start=start, method=method).recipe(motion)
     return edit(motion, recipe, strength=strength, safe=safe)
 
 
@@ -136,10 +136,10 @@ def like(
     (Amaya, Bruderlin & Calvert 1996); without ``neutral`` the motion itself is that. Raises ``BodyError``
     where no body is found.
     """
-    return edit(motion, as_like(example, neutral).recipe(motion), strength=strength)
+    return edit(motion, as_like(example, neutral=neutral).recipe(motion), strength=strength)
 
 
-def as_like(example: Motion, neutral: Motion | None = None) -> Like:
+def as_like(example: Motion, *, neutral: Motion | None = None) -> Like:
     """Return what an example says, compared with its neutral clip."""
     if neutral is None:
         return Like(Manner.of(example), None, example.name or "example")
