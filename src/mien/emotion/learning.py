@@ -143,8 +143,10 @@ def scores(takes: Sequence[Take], places: Mapping[str, Point]) -> dict[str, floa
 
     ``change``, ``alone`` and ``laban`` are the three readings; ``top-1`` of all labels (``chance`` is that of
     guessing), ``quadrant`` and mean ``distance`` on the disc of the labels with a place. ``acted`` leaves out
-    the neutral takes, whose change is nothing.
+    the neutral takes, whose change is nothing. Raises ``MienError`` for takes of one content only.
     """
+    if len({take.content for take in takes}) < 2:
+        raise MienError("how well contents are read that were not seen needs takes of two or more contents")
     hits: dict[str, list[float]] = {}
 
     def note(name: str, value: float) -> None:
