@@ -6,7 +6,7 @@ amplitude for each limb, and the evenness of movement. Skeletons, units, frame r
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -30,6 +30,8 @@ LIMBS: Mapping[str, tuple[str, ...]] = {
 }
 SLOWEST, FASTEST = 0.3, 6.0  # Hz: slower is posture, faster is noise
 STILL = np.radians(0.5)  # less movement of a limb than this says nothing
+ALIKE = 0.9  # cosine from which on two bones point the same way
+SAME_SIZE = 0.02  # bodies whose legs differ by less are of one size
 MOST_GAIN, MOST_RATE = 4.0, 2.5  # what differs more is another action
 
 
@@ -101,6 +103,38 @@ class Change:
             self.rate**amount,
             self.sharpness**amount,
         )
+
+
+def body_beside(body: Body, rest: Motion, motion: Motion) -> Body:
+    """Return the body to measure ``motion`` with beside ``rest``, a neutral clip with ``body``.
+
+    On the same bones it is that of the neutral clip, at the motion's own size: a bowed clip would hide its
+    own bow. On others it is the motion's own. Raises ``BodyError`` where no body is found.
+    """
+    if motion.skeleton is rest.skeleton:
+        return body
+    own = Body.of(motion)
+    if motion.skeleton.names != rest.skeleton.names or not _same_directions(rest, motion):
+        return own
+    if own.roles != body.roles or own.up @ body.up < ALIKE:
+        return own
+    size = own.leg_length / body.leg_length
+    if abs(size - 1.0) < SAME_SIZE:
+        return body
+    return replace(
+        body,
+        leg_length=own.leg_length,
+        height=size * body.height,
+        floor=own.floor,
+        metres_per_unit=own.metres_per_unit,
+    )
+
+
+def _same_directions(one: Motion, other: Motion) -> bool:
+    """Return whether all bones of two skeletons with the same names point the same way in their joints."""
+    a, b = one.skeleton.offsets[1:], other.skeleton.offsets[1:]
+    long = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+    return bool((np.einsum("ji,ji->j", a, b) >= ALIKE * long).all())
 
 
 def difference(before: Manner, after: Manner) -> Change:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..analysis.laban import features
 from ..analysis.laban_table import DERIVED
-from ..analysis.manner import Manner, difference, usual_manner
+from ..analysis.manner import Manner, body_beside, difference, usual_manner
 from ..analysis.manner_features import manner_features
 from ..errors import MienError
 from ..kinematics.body import Body
@@ -68,7 +68,7 @@ def measure_takes(clips: Iterable[tuple[Motion, str, str, str]]) -> list[Take]:
         body = Body.of(rest)
         manner, laban = Manner.of(rest, body=body), features(rest, body=body).clip
         for motion, label in some:
-            own = body if motion.skeleton.names == rest.skeleton.names else Body.of(motion)
+            own = body_beside(body, rest, motion)
             change = manner_features(difference(manner, Manner.of(motion, body=own)))
             derived = features(motion, body=own).clip
             takes.append(Take(label, content, performer, change, Manner.of(motion), derived, laban))

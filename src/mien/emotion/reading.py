@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..analysis.manner import Manner, difference
+from ..analysis.manner import Manner, body_beside, difference
 from ..analysis.manner_features import FEATURES, manner_features
 from ..kinematics.body import Body
 from ..motion import Motion, require_motion
@@ -78,9 +78,10 @@ def read(motion: Motion, *, neutral: Motion | None = None, model: EmotionModel |
     """Return what a motion expresses.
 
     ``neutral`` is a clip of the same person, best of the same action: the reading is then of what differs,
-    which is much surer. Without it an edited motion is compared with what it was made from, any other with
-    how people usually are. ``model`` is a learned one (``load_model``), else the shipped one. Raises
-    ``BodyError`` where no body is found.
+    which is much surer. Without it an edited motion is compared with what it was made from, which has gone
+    through its changes of tempo too, so that they do not count; any other with how people usually are.
+    ``model`` is a learned one (``load_model``), else the shipped one. Raises ``BodyError`` where no body is
+    found.
 
     >>> from mien import samples
     >>> walk = samples.walk(seconds=4.0).motion
@@ -94,7 +95,7 @@ def read(motion: Motion, *, neutral: Motion | None = None, model: EmotionModel |
         manners = model.alone
     else:
         body = Body.of(before)
-        own = body if before.skeleton.names == motion.skeleton.names else None
+        own = body_beside(body, before, motion)
         numbers = manner_features(difference(Manner.of(before, body=body), Manner.of(motion, body=own)))
         manners = model.change
     labels = manners.probabilities(numbers)

@@ -24,7 +24,8 @@ MARGIN = 76.0  # around the disc, for what the axes mean
 NAMED = 16  # up to so many clips have their names beside them
 DOT, LEAST_DOT = 5.0, 2.0  # radius of a dot: of a few clips, and of very many
 CLEAR = 0.02  # labels with a smaller probability are not named
-FURTHEST = 0.06  # of the disc's radius: how far a dot goes to lie beside another
+SPREAD = 0.55  # of a step: how far the first seed lies from the middle
+FURTHEST = 0.1  # of the disc's radius: how far a dot goes to lie beside another
 GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
 CORNERS = {
     "Q1": (0.0, 0.0, "start"),
@@ -105,6 +106,7 @@ def disc_shapes(dots: Sequence[Dot], *, size: float = SIZE) -> list[Shape]:
     for x, y in places:
         labels.keep(float(x), float(y), radius)
     shapes = _frame(middle, reach, letters)
+    labels.taken += [shape.box for shape in shapes if isinstance(shape, Words)]
     named = [
         labels.beside(float(x), float(y), dot.name, away=radius + 4, size=letters, ink="ink")
         for dot, (x, y) in zip(dots, places, strict=True)
@@ -154,21 +156,22 @@ def _apart(places: Array, step: float, furthest: float) -> Array:
     ``step`` is the least distance; what would have to go further than ``furthest`` stays where it is.
     """
     out, seen = places.copy(), dict[tuple[int, ...], int]()
+    seeds = int((furthest / (SPREAD * step)) ** 2)
     for i, place in enumerate(places):
         cell = tuple(np.rint(place / step).astype(int).tolist())
         k = seen.get(cell, 0)
-        spot = _seed(place, k, step)
-        while i and np.square(out[:i] - spot).sum(axis=1).min() < (0.9 * step) ** 2:
+        while k <= seeds and i and _nearest(out[:i], _seed(place, k, step)) < 0.9 * step:
             k += 1
-            spot = _seed(place, k, step)
-            if np.hypot(*(spot - place)) > furthest:
-                spot = place
-                break
-        seen[cell], out[i] = k, spot
+        out[i] = _seed(place, k, step) if k <= seeds else place
+        seen[cell] = k
     return out
+
+
+def _nearest(places: Array, spot: Array) -> float:
+    return float(np.sqrt(np.square(places - spot).sum(axis=1).min()))
 
 
 def _seed(place: Array, k: int, step: float) -> Array:
     """Return the place of the seed ``k`` around a place (Vogel 1979)."""
-    found: Array = place + 0.55 * step * np.sqrt(k) * np.array([np.cos(k * GOLDEN), np.sin(k * GOLDEN)])
+    found: Array = place + SPREAD * step * np.sqrt(k) * np.array([np.cos(k * GOLDEN), np.sin(k * GOLDEN)])
     return found
