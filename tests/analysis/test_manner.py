@@ -107,6 +107,10 @@ def test_the_body_beside_a_neutral_clip(walk: Motion) -> None:
     bowed = mien.apply(walk, [Step("posture", {"head": 40.0})])
     alone = Motion(replace(walk.skeleton), bowed.rotations, bowed.translations, walk.frame_time)
     assert body_beside(body, walk, alone) is body
+    elsewhere = np.array(walk.skeleton.offsets)
+    elsewhere[0] = [300.0, 0.0, -500.0]  # where the clip begins, and no bone
+    moved = Motion(replace(walk.skeleton, offsets=elsewhere), *(alone.rotations, alone.translations), 1 / 60)
+    assert body_beside(body, walk, moved) is body
     bones = walk.skeleton
     skeleton = replace(bones, offsets=0.01 * bones.offsets, end_offsets=0.01 * bones.end_offsets)
     metres = Motion(skeleton, alone.rotations, 0.01 * alone.translations, walk.frame_time)

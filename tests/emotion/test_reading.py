@@ -127,9 +127,9 @@ def test_the_shortest_clips(walk: Motion, frames: int) -> None:
 
 
 def test_what_is_no_motion_is_told(walk: Motion) -> None:
-    with pytest.raises(MienError, match="mien.load"):
+    with pytest.raises(MienError, match=r"mien\.load"):
         mien.read("walk.bvh", neutral=walk)
-    with pytest.raises(MienError, match="mien.load"):
+    with pytest.raises(MienError, match=r"mien\.load"):
         mien.read(walk, neutral="walk.bvh")
 
 

@@ -135,6 +135,12 @@ def test_shapes_are_drawn_to_scale() -> None:
 
 
 def test_labels_give_up_where_there_is_no_room() -> None:
-    labels = Labels()
+    labels = Labels(100.0, 100.0)
     labels.keep(50.0, 50.0, 200.0)
-    assert labels.beside(50.0, 50.0, "name", away=5.0, size=12.0, ink="ink") is None
+    how = {"away": 5.0, "size": 12.0, "ink": "ink"}
+    first = labels.beside(50.0, 50.0, "name", **how)
+    assert first.x == 55.0, "over a point only where there is no other room"
+    assert labels.beside(2.0, 50.0, "name", **how).anchor == "start"
+    assert labels.beside(98.0, 20.0, "name", **how).anchor == "end"
+    labels.taken.append((0.0, 0.0, 100.0, 100.0))
+    assert labels.beside(50.0, 50.0, "name", **how) is None

@@ -114,9 +114,9 @@ def body_beside(body: Body, rest: Motion, motion: Motion) -> Body:
     if motion.skeleton is rest.skeleton:
         return body
     own = Body.of(motion)
-    if motion.skeleton.names != rest.skeleton.names or not _same_directions(rest, motion):
+    if motion.skeleton.names != rest.skeleton.names or own.roles != body.roles:
         return own
-    if own.roles != body.roles or own.up @ body.up < ALIKE:
+    if own.up @ body.up < ALIKE or not _same_directions(rest, motion, body.roles["hips"]):
         return own
     size = own.leg_length / body.leg_length
     if abs(size - 1.0) < SAME_SIZE:
@@ -130,9 +130,13 @@ def body_beside(body: Body, rest: Motion, motion: Motion) -> Body:
     )
 
 
-def _same_directions(one: Motion, other: Motion) -> bool:
-    """Return whether all bones of two skeletons with the same names point the same way in their joints."""
-    a, b = one.skeleton.offsets[1:], other.skeleton.offsets[1:]
+def _same_directions(one: Motion, other: Motion, hips: int) -> bool:
+    """Return whether the bones below the hips of two skeletons point the same way in their joints.
+
+    The offset of the hips themselves is where a clip begins, and no bone.
+    """
+    joints = one.skeleton.descendants(hips)[1:]
+    a, b = one.skeleton.offsets[joints], other.skeleton.offsets[joints]
     long = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
     return bool((np.einsum("ji,ji->j", a, b) >= ALIKE * long).all())
 

@@ -183,7 +183,7 @@ def _places(given: Sequence[str], labels: set[str]) -> "Mapping[str, Point]":
     from ..emotion.circumplex import Point, point, words
 
     known = words()
-    found: dict[str, Point] = {label: known[label] for label in labels & set(known)}
+    found: dict[str, Point] = {label: known[label] for label in sorted(labels & set(known))}
     for item in given:
         label, _, where = item.partition("=")
         if label not in labels:

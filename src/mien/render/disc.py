@@ -6,6 +6,7 @@ A filled dot is a clip that was read against a neutral one, a ring one whose rea
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -99,7 +100,7 @@ def disc_shapes(dots: Sequence[Dot], *, size: float = SIZE) -> list[Shape]:
     unit = size / SIZE
     letters = max(12.0 * unit, 9.0)
     middle, reach = 0.5 * size, 0.5 * size - MARGIN * max(unit, 0.85)
-    labels = Labels()
+    labels = Labels(size, size)
     across, up = middle + reach * np.array([[d.valence, -d.arousal] for d in dots]).reshape(-1, 2).T
     radius = max(unit, 0.8) * float(np.clip(DOT * np.sqrt(60.0 / max(len(dots), 1)), LEAST_DOT, DOT))
     places = _apart(np.stack([across, up], axis=1), 2.2 * radius, FURTHEST * reach)
@@ -108,7 +109,7 @@ def disc_shapes(dots: Sequence[Dot], *, size: float = SIZE) -> list[Shape]:
     shapes = _frame(middle, reach, letters)
     labels.taken += [shape.box for shape in shapes if isinstance(shape, Words)]
     named = [
-        labels.beside(float(x), float(y), dot.name, away=radius + 4, size=letters, ink="ink")
+        labels.beside(float(x), float(y), _short(dot.name), away=radius + 4, size=letters, ink="ink")
         for dot, (x, y) in zip(dots, places, strict=True)
         if len(dots) <= NAMED and dot.name
     ]
@@ -118,6 +119,11 @@ def disc_shapes(dots: Sequence[Dot], *, size: float = SIZE) -> list[Shape]:
         ink = "other" if dot.guess else "mark"
         shapes.append(Round(float(x), float(y), radius, ink, not dot.guess, said))
     return shapes + [name for name in named if name]
+
+
+def _short(name: str) -> str:
+    """Return the name of a clip without its folders and its kind."""
+    return PurePath(name).stem
 
 
 def _frame(middle: float, reach: float, letters: float) -> list[Shape]:
@@ -139,14 +145,14 @@ def _frame(middle: float, reach: float, letters: float) -> list[Shape]:
 
 
 def _words(labels: Labels, middle: float, reach: float, letters: float) -> list[Shape]:
-    """Return the emotion words at their places."""
+    """Return the emotion words at their places; where names of clips leave no room, the place only."""
     shapes: list[Shape] = []
     spots = {word: (middle + reach * p.valence, middle - reach * p.arousal) for word, p in words().items()}
     for x, y in spots.values():
         labels.keep(x, y, 2.0)
     for word, (x, y) in spots.items():
         name = labels.beside(x, y, word, away=5, size=letters, ink="faint")
-        shapes += [Round(x, y, 1.6, "faint"), name or Words(x + 5, y, word, letters, "faint")]
+        shapes += [Round(x, y, 1.6, "faint"), *([name] if name else [])]
     return shapes
 
 

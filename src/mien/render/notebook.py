@@ -12,7 +12,7 @@ from .disc import Dot, disc_svg
 from .shapes import Box, Shape, Words, svg
 from .strip import strip
 
-DISC, BARS, ROW = 380.0, 540.0, 19.0  # pixels: the disc, the width of the bars, the height of one
+DISC, BARS, ROW = 380.0, 470.0, 19.0  # pixels: the disc, the width of the bars, the height of one
 SHOWN, LEAST = 5, 0.01  # labels, and the least probability of one
 
 
@@ -82,6 +82,6 @@ def _line(rows: list[Shape], text: str, *, ink: str = "ink", gap: bool = False) 
 def _bar(rows: list[Shape], what: str, share: float, said: str) -> None:
     """Add a row: what it is, a bar from 0 to 1, and the value in words."""
     y = _bottom(rows) + 0.5 * ROW
-    rows.append(Words(0.47 * BARS - 6, y, what, 12.0, "ink", "end"))
-    rows.append(Box(0.47 * BARS, y - 5, max(0.27 * BARS * min(max(share, 0.0), 1.0), 1.0), 10))
-    rows.append(Words(0.76 * BARS, y, said, 12.0, "faint"))
+    rows.append(Words(0.45 * BARS - 6, y, what, 12.0, "ink", "end"))
+    rows.append(Box(0.45 * BARS, y - 5, max(0.26 * BARS * min(max(share, 0.0), 1.0), 1.0), 10))
+    rows.append(Words(0.73 * BARS, y, said, 12.0, "faint"))

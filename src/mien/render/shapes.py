@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
 
+Edges = tuple[float, float, float, float]  # left, top, right, bottom
 SAMPLES = 2  # a pixel each way, for smooth lines
 WIDEST = 0.56  # of the letters' size: how wide a letter is, about
 
@@ -83,7 +84,7 @@ class Words:
     anchor: str = "start"
 
     @property
-    def box(self) -> tuple[float, float, float, float]:
+    def box(self) -> Edges:
         """About where it is written: left, top, right, bottom."""
         wide = WIDEST * self.size * len(self.text)
         left = self.x - {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor] * wide
@@ -159,17 +160,22 @@ def _draw(pen: "ImageDraw", shape: Shape, scale: float) -> None:
 
 
 class Labels:
-    """Puts names beside points so that they hide nothing, as long as there is room."""
+    """Puts names beside points so that they hide no other name and, where there is room, no point.
 
-    def __init__(self) -> None:
-        self.taken: list[tuple[float, float, float, float]] = []
+    ``taken`` are the boxes (left, top, right, bottom) of names on a page of ``width`` and ``height``.
+    """
+
+    def __init__(self, width: float, height: float) -> None:
+        self.width, self.height = width, height
+        self.taken: list[Edges] = []
+        self.points: list[Edges] = []
 
     def keep(self, x: float, y: float, radius: float) -> None:
-        """Leave the place around a point free."""
-        self.taken.append((x - radius, y - radius, x + radius, y + radius))
+        """Leave the place around a point free, if possible."""
+        self.points.append((x - radius, y - radius, x + radius, y + radius))
 
     def beside(self, x: float, y: float, text: str, *, away: float, size: float, ink: str) -> Words | None:
-        """Return the name right, left, above or below a point; None where all these are taken."""
+        """Return the name right, left, above or below a point; None where other names take all these."""
         places: Sequence[tuple[float, float, str]] = (
             (x + away, y, "start"),
             (x - away, y, "end"),
@@ -180,13 +186,17 @@ class Labels:
             (x - away, y - 0.9 * size, "end"),
             (x - away, y + 0.9 * size, "end"),
         )
-        for px, py, anchor in places:
-            words = Words(px, py, text, size, ink, anchor)
-            if not any(_meet(words.box, other) for other in self.taken):
-                self.taken.append(words.box)
-                return words
+        possible = [Words(px, py, text, size, ink, anchor) for px, py, anchor in places]
+        for others in ([*self.taken, *self.points], self.taken):
+            for words in possible:
+                if self._inside(words.box) and not any(_meet(words.box, other) for other in others):
+                    self.taken.append(words.box)
+                    return words
         return None
 
+    def _inside(self, box: Edges) -> bool:
+        return box[0] >= 0.0 <= box[1] and box[2] <= self.width and box[3] <= self.height
 
-def _meet(a: tuple[float, float, float, float], b: tuple[float, float, float, float]) -> bool:
+
+def _meet(a: Edges, b: Edges) -> bool:
     return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
