@@ -1,7 +1,8 @@
 """Write what documents say of edits, presets and checks, from the registry and the preset files.
 
 METHODS.md, the facts in docs/methods/*.md, the tables of emotion words in README.md and docs/presets.md, that
-of the checks in docs/checks.md, that of the Laban features in docs/laban.md.
+of the checks in docs/checks.md, that of the Laban features in docs/laban.md, the card of the shipped model
+and the emotion words of both tables in docs/emotion.md.
 ``python scripts/methods.py`` writes them; with ``--check`` it only says which are out of date. Change the
 edit or the preset, then run this.
 """
@@ -15,6 +16,9 @@ from mien.analysis.checks.report import CHECKS
 from mien.analysis.laban_table import COMPONENTS, FEATURES, Feature
 from mien.cli.flags import flag_name
 from mien.edits.registry import EDITS, Edit, Parameter
+from mien.emotion.circumplex import TABLES, source
+from mien.emotion.circumplex import words as placed_words
+from mien.emotion.model import shipped_model
 from mien.emotion.presets import PRESETS, preset
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -200,6 +204,44 @@ def _laban_row(feature: Feature) -> str:
     return f"| {feature.number} | `{feature.name}` | {about} | {feature.unit} | {shown} |"
 
 
+SCORES = "scores on contents left out"
+SAID = {
+    "top-1": "share of takes whose label is the likeliest",
+    "top-1, acted": "the same, without the neutral takes",
+    "quadrant": "share of takes in the right quadrant, of labels with a place",
+    "distance": "mean distance on the disc, of labels with a place",
+}
+
+
+def emotion() -> list[str]:
+    """Return the card of the shipped model, and where the emotion words stand in both tables."""
+    card = dict(shipped_model().card)
+    scores = card.pop(SCORES)
+    lines = ["## The shipped model", "", "| | |", "| --- | --- |"]
+    for key, value in card.items():
+        lines.append(f"| {key} | {_cell(', '.join(value) if isinstance(value, list) else str(value))} |")
+    places = (f"{label} {v:+.2f} {a:+.2f}" for label, (v, a) in shipped_model().places.items())
+    lines += [f"| places of labels | {', '.join(places)} |", ""]
+    lines += [f"Its scores on contents left out (guessing one of the labels: {scores['chance']:g}):", ""]
+    lines += ["| score | change | alone | laban |", "| --- | --- | --- | --- |"]
+    for name, said in SAID.items():
+        values = (scores.get(f"{reading} {name}") for reading in ("change", "alone", "laban"))
+        lines.append(f"| {said} | {' | '.join('' if v is None else f'{v:g}' for v in values)} |")
+    return [*lines, "", "## Where the words stand", "", *_word_table()]
+
+
+def _word_table() -> list[str]:
+    known = {table: placed_words(table=table) for table in TABLES}
+    lines = [f"- **{table}**: {_cell(source(table=table))}" for table in TABLES]
+    lines += ["", "Valence and arousal of every word; `mien` uses the first table.", ""]
+    lines += [f"| word | {' | '.join(TABLES)} |", "| --- | --- | --- |"]
+    for word in sorted({word for places in known.values() for word in places}):
+        found = (known[table].get(word) for table in TABLES)
+        shown = ("" if p is None else f"{p.valence:+.2f} {p.arousal:+.2f}" for p in found)
+        lines.append(f"| {word} | {' | '.join(shown)} |")
+    return lines
+
+
 def filled(written: str, made: list[str]) -> str:
     """Return a document with the part between the marks brought up to date; without marks, added."""
     block = "\n".join([BEGIN, "", *made, "", END])
@@ -214,6 +256,7 @@ def texts() -> dict[Path, str]:
     made = {ROOT / "README.md": words(own=True), ROOT / "docs" / "presets.md": evidence()}
     made[ROOT / "docs" / "checks.md"] = checks()
     made[ROOT / "docs" / "laban.md"] = laban()
+    made[ROOT / "docs" / "emotion.md"] = emotion()
     for name, edit in EDITS.items():
         made[ROOT / "docs" / "methods" / f"{name}.md"] = [
             *facts(edit, up="../../"),

@@ -108,7 +108,9 @@ def edit_file(job: Job) -> Outcome:
 class Subject:
     """One file to measure. ``read`` are the options of ``load``, ``body`` the roles of a map file.
 
-    ``neutral`` is a clip to compare it with, ``model`` the file of a learned model.
+    ``neutral`` is a clip to compare it with, ``model`` the file of a learned model. Without a ``neutral``
+    clip an edited one is compared with what it was made from, where that is found and ``of_source`` is asked
+    for. ``laban`` False leaves out Laban features and Effort.
     """
 
     source: Path
@@ -116,6 +118,8 @@ class Subject:
     body: Mapping[str, str] = field(default_factory=dict)
     neutral: Path | None = None
     model: Path | None = None
+    of_source: bool = True
+    laban: bool = True
 
 
 @dataclass(frozen=True)
@@ -138,23 +142,26 @@ def analyse_files(subjects: Sequence[Subject], *, workers: int = 1) -> Iterator[
 
 
 def analyse_file(subject: Subject) -> Analysis:
-    """Read one file and work out what it expresses, its Laban features and Effort factors.
-
-    Without a ``neutral`` clip an edited one is compared with what it was made from, where that is found.
-    """
+    """Read one file and work out what it expresses, its Laban features and Effort factors."""
     try:
         motion = opened(subject.source, body=subject.body, **subject.read)
-        before = subject.neutral or source_of(subject.source)
-        neutral = opened(before, body=subject.body, **subject.read) if before else None
-        model = load_model(subject.model) if subject.model else None
-        found = features(motion), effort(motion), read(motion, neutral=neutral, model=model)
+        reading = _reading(subject, motion)
+        laban = features(motion) if subject.laban else None
+        factors = effort(motion) if subject.laban else None
     except (MienError, OSError, MemoryError) as error:
         return Analysis(subject.source, error=sentence(error))
     except Exception as error:
         if os.environ.get("MIEN_DEBUG"):
             raise
         return Analysis(subject.source, error=sentence(error), unexpected=True)
-    return Analysis(subject.source, len(motion), motion.duration, *found)
+    return Analysis(subject.source, len(motion), motion.duration, laban, factors, reading)
+
+
+def _reading(subject: Subject, motion: Motion) -> Reading:
+    before = subject.neutral or (source_of(subject.source) if subject.of_source else None)
+    neutral = opened(before, body=subject.body, **subject.read) if before else None
+    model = load_model(subject.model) if subject.model else None
+    return read(motion, neutral=neutral, model=model)
 
 
 def edited(job: Job) -> tuple[Motion, Motion]:

@@ -7,8 +7,9 @@ import pytest
 
 import mien
 from mien import samples
-from mien.analysis.manner import LIMBS, Change, Manner, difference, mean_change
+from mien.analysis.manner import LIMBS, Change, Manner, body_beside, difference, mean_change
 from mien.errors import MienError
+from mien.kinematics.body import Body
 from mien.kinematics.poses import Pose
 from mien.motion import Motion
 from mien.recipe import Step
@@ -98,3 +99,28 @@ def test_the_shortest_clips_have_a_manner(walk: Motion, frames: int) -> None:
     found = change(walk[:frames], walk[:frames])
     assert found.rate == found.sharpness == 1.0
     assert np.isfinite(found.hips_height)
+
+
+def test_the_body_beside_a_neutral_clip(walk: Motion) -> None:
+    """On the same bones it stands as the neutral clip does, at its own size; on others as itself."""
+    body = Body.of(walk)
+    bowed = mien.apply(walk, [Step("posture", {"head": 40.0})])
+    alone = Motion(replace(walk.skeleton), bowed.rotations, bowed.translations, walk.frame_time)
+    assert body_beside(body, walk, alone) is body
+    elsewhere = np.array(walk.skeleton.offsets)
+    elsewhere[0] = [300.0, 0.0, -500.0]  # where the clip begins, and no bone
+    moved = Motion(replace(walk.skeleton, offsets=elsewhere), *(alone.rotations, alone.translations), 1 / 60)
+    assert body_beside(body, walk, moved) is body
+    bones = walk.skeleton
+    skeleton = replace(bones, offsets=0.01 * bones.offsets, end_offsets=0.01 * bones.end_offsets)
+    metres = Motion(skeleton, alone.rotations, 0.01 * alone.translations, walk.frame_time)
+    small = body_beside(body, walk, metres)
+    assert small.leg_length == pytest.approx(0.01 * body.leg_length)
+    assert small.height == pytest.approx(0.01 * body.height)
+    assert small.neutral is body.neutral
+    assert difference(Manner.of(walk), Manner.of(metres, body=small)).hips_height == pytest.approx(
+        0.0, abs=1e-6
+    )
+    for other in (samples.SKELETONS[1], samples.SKELETONS[2]):
+        else_ = samples.walk(seconds=1.0, skeleton=other).motion
+        assert body_beside(body, walk, else_) is Body.of(else_)

@@ -29,14 +29,10 @@ LAYERS = (
 )
 # Rooms that know arrays only: no Motion, no Skeleton, no steps.
 ARRAYS_ONLY = ("rotations", "signal")
-# A notebook asks the object itself for its picture, so this one looks up, when asked, by the front door.
-DISPLAY = {("motion", "")}
+# A notebook asks the object itself for its picture, so these look up, when asked, by the front door.
+DISPLAY = {("motion", ""), ("emotion.reading", ""), ("analysis.laban", "")}
 # Files of edits/ that are not an edit themselves; every edit may import these and no other.
 SHARED = ("__init__", "keyed", "order", "parameters", "pipeline", "registry")
-# (importer, imported) that may go against the table, and why.
-EXCUSED = {
-    ("motion", ""): "a motion shows itself in notebooks; who draws it is looked up when it is asked to",
-}
 LEVEL = {room: number for number, line in enumerate(LAYERS) for room in line}
 
 

@@ -18,6 +18,7 @@ from mien.analysis.laban_table import DERIVED, FEATURES, SELECTED
 
 Run = Callable[..., Result]
 ALL = [d.name for d in DERIVED]
+READ = ["valence", "arousal", "quadrant", "label", "probability", "against"]
 
 
 def rows(text: str) -> list[dict[str, str]]:
@@ -25,7 +26,7 @@ def rows(text: str) -> list[dict[str, str]]:
 
 
 def test_a_table_for_a_person(folder: Path, run: Run) -> None:
-    result = run("analyze", "walk.bvh")
+    result = run("analyze", "walk.bvh", "--laban")
     assert result.exit_code == 0
     found = mien.features(mien.load("walk.bvh"))
     for component in ("BODY", "EFFORT", "SHAPE", "SPACE"):
@@ -37,7 +38,7 @@ def test_a_table_for_a_person(folder: Path, run: Run) -> None:
 
 
 def test_clips_beside_each_other(folder: Path, run: Run) -> None:
-    result = run("analyze", "walk.bvh", "deeper")
+    result = run("analyze", "walk.bvh", "deeper", "--laban")
     head = next(line for line in result.stdout.splitlines() if line.startswith("feature"))
     assert head.split() == ["feature", "unit", "walk.bvh", "tired_walk.bvh"]
     speed = next(line for line in result.stdout.splitlines() if "pelvis speed mean" in line)
@@ -49,7 +50,7 @@ def test_every_feature_as_csv(folder: Path, run: Run) -> None:
     result = run("analyze", ".", "--features", "--jobs", "2")
     table = rows(result.stdout)
     assert [row["file"] for row in table] == ["brisk.bvh", "deeper/tired_walk.bvh", "walk.bvh"]
-    assert list(table[0]) == ["file", "duration", *ALL]
+    assert list(table[0]) == ["file", "duration", *READ, *ALL]
     found = mien.features(mien.load("walk.bvh")).clip
     np.testing.assert_array_equal([float(table[2][name]) for name in ALL], found)
     alone = run("analyze", ".", "--features", "--jobs", "1")
@@ -111,6 +112,7 @@ def test_a_picture(folder: Path, run: Run) -> None:
 def test_json(folder: Path, run: Run) -> None:
     (found,) = json.loads(run("analyze", "walk.bvh", "--json").stdout)
     assert found["file"] == "walk.bvh"
+    assert found["reading"] == mien.read(mien.load("walk.bvh")).as_data()
     assert list(found["features"]) == [d.name for d in SELECTED]
     assert list(found["effort"]) == list(EFFORT)
     assert found["effort"]["weight"] == effort(mien.load("walk.bvh")).clip[0]
@@ -151,6 +153,10 @@ def test_a_skeleton_that_is_no_body(folder: Path, run: Run) -> None:
         (["walk.bvh", "--plot", "walk.svg"], "a picture is .png"),
         (["walk.bvh", "brisk.bvh", "--plot", "both.png"], "--plot shows one clip, but there are 2"),
         (["none.bvh"], "there is no such file"),
+        (["walk.bvh", "--disc", "disc.svg"], "a disc is .html or .png"),
+        (["walk.bvh", "--neutral", "none.bvh"], "none.bvh: there is no such file"),
+        (["walk.bvh", "--model", "none.json"], "none.json: cannot be read as a model"),
+        (["walk.bvh", "--model", "walk.bvh"], "is no model of emotion"),
     ],
 )
 def test_what_it_refuses(folder: Path, run: Run, arguments: list[str], said: str) -> None:
@@ -162,3 +168,86 @@ def test_what_it_refuses(folder: Path, run: Run, arguments: list[str], said: str
 def test_one_frame(folder: Path, run: Run) -> None:
     mien.save(samples.still(seconds=0.0).motion, "one.bvh")
     assert run("analyze", "one.bvh", "--plot", "one.png", "--features").exit_code == 0
+
+
+def test_what_a_clip_expresses(folder: Path, run: Run) -> None:
+    mien.save(mien.edit(mien.load("walk.bvh"), "sad"), "low.bvh")
+    found = mien.read(mien.load("low.bvh"), neutral=mien.load("walk.bvh"))
+    lines = run("analyze", "low.bvh", "--neutral", "walk.bvh").stdout.splitlines()
+    assert lines[0] == "low.bvh, against its neutral clip"
+    place = found.place
+    assert lines[1] == f"  valence {place.valence:+.2f}, arousal {place.arousal:+.2f}: mild and unpleasant"
+    assert lines[2] == f"  nearest words: {', '.join(found.words)}"
+    assert lines[3].startswith(f"  acted like: sad {100 * found.labels['sad']:.0f} %")
+    assert lines[4] == f"  because: {'; '.join(map(str, found.why))}"
+    assert "BODY" not in "".join(lines)
+
+
+def test_an_edited_clip_is_read_against_its_source(folder: Path, run: Run) -> None:
+    run("edit", "walk.bvh", "-e", "sad", "-o", "new/low.bvh")
+    by_itself, told = (
+        json.loads(run("analyze", "new/low.bvh", *more, "--json").stdout)[0]["reading"]
+        for more in ([], ["--neutral", "walk.bvh"])
+    )
+    assert by_itself == told
+    assert by_itself["against"] == "neutral"
+    assert "a guess, --neutral makes it sure" in run("analyze", "walk.bvh").stdout
+
+
+def test_a_model_of_ones_own(folder: Path, run: Run) -> None:
+    from mien.emotion.model import format_model, shipped_model
+
+    text = format_model(shipped_model())
+    Path("own.json").write_text(text.replace('"tired"', '"weary"'), encoding="utf-8")
+    (own,) = json.loads(run("analyze", "walk.bvh", "--model", "own.json", "--json").stdout)
+    (usual,) = json.loads(run("analyze", "walk.bvh", "--json").stdout)
+    assert own["reading"]["labels"]["weary"] == usual["reading"]["labels"]["tired"]
+
+
+def test_what_clips_express_in_a_table(folder: Path, run: Run) -> None:
+    table = rows(run("analyze", ".", "--features", "--neutral", "walk.bvh").stdout)
+    for row in table:
+        found = mien.read(mien.load(row["file"]), neutral=mien.load("walk.bvh"))
+        label, probability = next(iter(found.labels.items()))
+        assert (float(row["valence"]), float(row["arousal"])) == found.place
+        assert (row["quadrant"], row["label"], row["against"]) == (found.quadrant, label, "neutral")
+        assert float(row["probability"]) == probability
+    assert (table[-1]["file"], table[-1]["quadrant"]) == ("walk.bvh", "neutral")
+    windows = rows(run("analyze", "walk.bvh", "--features", "--per", "window").stdout)
+    assert not set(READ) & set(windows[0])
+
+
+def test_a_map_of_a_folder(folder: Path, run: Run) -> None:
+    from PIL import Image
+
+    Path("<b>&.bvh").write_bytes(Path("walk.bvh").read_bytes())
+    result = run("analyze", ".", "--disc", "new/map.html")
+    assert (result.exit_code, result.stdout) == (0, "new/map.html\n")
+    page = Path("new/map.html").read_text(encoding="utf-8")
+    for name in ("walk.bvh", "brisk.bvh", "deeper/tired_walk.bvh", "&lt;b&gt;&amp;.bvh"):
+        assert f"<title>{name}\n" in page
+        assert f"<td>{name}</td>" in page
+    assert "<b>" not in page
+    assert str(folder) not in page
+    again = run("analyze", ".", "--disc", "new/map.html")
+    assert (again.exit_code, again.stdout) == (2, "")
+    assert (
+        run("analyze", "walk.bvh", "--disc", "map.png", "--plot", "walk.png").stdout == "walk.png\nmap.png\n"
+    )
+    with Image.open("map.png") as picture:
+        assert picture.size == (1200, 1200)
+
+
+def test_the_bar_over_a_folder(folder: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every clip goes through the bar, by the number of clips."""
+    from mien.cli import analyze
+
+    seen: list[tuple[int, str]] = []
+
+    def watched(items: object, *, total: int, doing: str) -> object:
+        seen.append((total, doing))
+        return items
+
+    monkeypatch.setattr(analyze, "progress", watched)
+    run("analyze", ".", "--disc", "map.html")
+    assert seen == [(3, "analysing")]

@@ -55,7 +55,7 @@ def done(line: str, run: Run) -> None:
 
 PAGES_DONE = [
     "README.md",
-    *(f"docs/{name}.md" for name in ("quickstart", "presets", "checks", "laban", "grid", "blend")),
+    *(f"docs/{name}.md" for name in ("quickstart", "presets", "checks", "laban", "emotion", "grid", "blend")),
 ]
 
 
@@ -69,7 +69,7 @@ def test_commands_work_line_by_line_and_python_twice(
         run("demo")  # the last words of the line that installs mien
     if name in ("docs/presets.md", "docs/grid.md"):
         mien.save(samples.walk(seconds=1.0, fps=30.0).motion, "walk.bvh")
-    if name == "docs/laban.md":
+    if name in ("docs/laban.md", "docs/emotion.md"):
         mien.save(samples.walk(seconds=2.0, fps=30.0).motion, "walk.bvh")
         mien.save(samples.tired_walk(seconds=2.0, fps=30.0).motion, "tired.bvh")
     for file, text in recipes(page):

@@ -81,6 +81,12 @@ class Features:
     def __repr__(self) -> str:
         return f"Features({len(self.times)} frames, {self.times[-1]:.2f} s)"
 
+    def _repr_html_(self) -> str:
+        """Return the selected features with bars for notebooks; the front door knows who draws them."""
+        import mien
+
+        return mien.render.features_html(self)
+
     def __getitem__(self, name: str) -> float:
         """Return a derived feature of the clip by its name, such as ``hands_distance_mean``."""
         if name not in self.names:

@@ -30,6 +30,8 @@ LIMBS: Mapping[str, tuple[str, ...]] = {
 }
 SLOWEST, FASTEST = 0.3, 6.0  # Hz: slower is posture, faster is noise
 STILL = np.radians(0.5)  # less movement of a limb than this says nothing
+ALIKE = 0.9  # cosine from which on two bones point the same way
+SAME_SIZE = 0.02  # bodies whose legs differ by less are of one size
 MOST_GAIN, MOST_RATE = 4.0, 2.5  # what differs more is another action
 
 
@@ -118,6 +120,42 @@ class Change:
             if all(name in swing for name in sides):
                 swing |= dict.fromkeys(sides, float(np.sqrt(swing[sides[0]] * swing[sides[1]])))
         return replace(self, pose=Pose(turns), swing=swing)
+
+
+def body_beside(body: Body, rest: Motion, motion: Motion) -> Body:
+    """Return the body to measure ``motion`` with beside ``rest``, a neutral clip with ``body``.
+
+    On the same bones it is that of the neutral clip, at the motion's own size: a bowed clip would hide its
+    own bow. On others it is the motion's own. Raises ``BodyError`` where no body is found.
+    """
+    if motion.skeleton is rest.skeleton:
+        return body
+    own = Body.of(motion)
+    if motion.skeleton.names != rest.skeleton.names or own.roles != body.roles:
+        return own
+    if own.up @ body.up < ALIKE or not _same_directions(rest, motion, body.roles["hips"]):
+        return own
+    size = own.leg_length / body.leg_length
+    if abs(size - 1.0) < SAME_SIZE:
+        return body
+    return replace(
+        body,
+        leg_length=own.leg_length,
+        height=size * body.height,
+        floor=own.floor,
+        metres_per_unit=own.metres_per_unit,
+    )
+
+
+def _same_directions(one: Motion, other: Motion, hips: int) -> bool:
+    """Return whether the bones below the hips of two skeletons point the same way in their joints.
+
+    The offset of the hips themselves is where a clip begins, and no bone.
+    """
+    joints = one.skeleton.descendants(hips)[1:]
+    a, b = one.skeleton.offsets[joints], other.skeleton.offsets[joints]
+    long = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+    return bool((np.einsum("ji,ji->j", a, b) >= ALIKE * long).all())
 
 
 def difference(before: Manner, after: Manner) -> Change:

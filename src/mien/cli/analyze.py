@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,7 +14,8 @@ from .report import complain, located, note, progress, show_json, show_table
 
 if TYPE_CHECKING:
     from ..analysis.laban import Features
-    from ..batch import Analysis
+    from ..batch import Analysis, Subject
+    from ..emotion.reading import Reading
 
 PER = ("clip", "window", "frame")
 BESIDE = 4  # clips in one table for a person
@@ -42,6 +44,10 @@ def analyze(
         bool, typer.Option("--laban", help="Also the 31 Laban features that tell emotions apart.")
     ] = False,
     plot: Annotated[Path | None, typer.Option(help="A .png picture of the features over time.")] = None,
+    disc: Annotated[
+        Path | None,
+        typer.Option(help="A .html page or .png picture of all clips on the disc of emotion words."),
+    ] = None,
     jobs: Annotated[
         int, typer.Option("--jobs", "-j", help="Processes to share the clips; 0 takes every core.")
     ] = 0,
@@ -63,25 +69,44 @@ def analyze(
 
     mien analyze takes/ --features -o features.csv
 
-    mien analyze walk.bvh --plot walk_features.png
+    mien analyze takes/ --disc takes.html
     """
-    from ..batch import Subject, analyse_files
-    from .inputs import existing, expand
+    from ..batch import Subject
+    from .inputs import expand
 
     found = [clip.path for clip in expand(clips)]
     per = _checked(per, features or out is not None)
-    _refuse(found, out, plot, force)
-    read, body = {"fps": fps, "salvage": salvage}, a.read_map(map_file)
-    about = {"neutral": existing(neutral) if neutral else None, "model": model}
-    subjects = [Subject(path, read, body, **about) for path in found]
-    work = analyse_files(subjects, workers=jobs or os.cpu_count() or 1)
-    done = list(progress(work, total=len(found), doing="analysing"))
+    _refuse(found, out, plot, disc, force)
+    subject = Subject(Path(), {"fps": fps, "salvage": salvage}, a.read_map(map_file), neutral, model)
+    subject = replace(subject, laban=features or laban or as_json or bool(out or plot))
+    done = read_all(found, subject, jobs, map_file)
     good = [analysis for analysis in done if not analysis.error]
     if plot and good:
         _draw(good[0], plot)
+    if disc and good:
+        _draw_disc(good, disc)
     if good or as_json:
-        _say(good, features, laban, per, out, plot, as_json)
-    _end(done)
+        _say(good, features, laban, per, out, as_json, bool(plot or disc))
+    if good and not as_json:
+        for picture in filter(None, (plot, disc)):
+            typer.echo(str(picture))
+    end(done)
+
+
+def read_all(found: Sequence[Path], like: "Subject", jobs: int, map_file: Path | None) -> "list[Analysis]":
+    """Return what is found in clips, each measured ``like`` the subject, with a bar.
+
+    Raises ``MienError`` for a neutral clip or a model that cannot be used, before any work is done.
+    """
+    from ..batch import analyse_files
+    from ..emotion.model import load_model
+
+    if like.neutral:
+        a.opened(like.neutral, like.read["fps"], like.read["salvage"], map_file)
+    if like.model:
+        load_model(like.model)
+    work = analyse_files([replace(like, source=path) for path in found], workers=jobs or os.cpu_count() or 1)
+    return list(progress(work, total=len(found), doing="analysing"))
 
 
 def _checked(per: str, table: bool) -> str:
@@ -92,7 +117,9 @@ def _checked(per: str, table: bool) -> str:
     return per
 
 
-def _refuse(found: Sequence[Path], out: Path | None, plot: Path | None, force: bool) -> None:
+def _refuse(
+    found: Sequence[Path], out: Path | None, plot: Path | None, disc: Path | None, force: bool
+) -> None:
     """Raise ``MienError`` for a file that cannot or must not be written, before any work is done."""
     from ..formats import files
     from .inputs import refuse_existing
@@ -106,8 +133,12 @@ def _refuse(found: Sequence[Path], out: Path | None, plot: Path | None, force: b
         if len(found) > 1:
             raise MienError(f"--plot shows one clip, but there are {len(found)}; name one")
         files.check_folder(plot.parent)
+    if disc:
+        if disc.suffix.lower() not in (".html", ".png"):
+            raise MienError(f"{disc}: a disc is .html or .png")
+        files.check_folder(disc.parent)
     if not force:
-        refuse_existing([file for file in (out, plot) if file])
+        refuse_existing([file for file in (out, plot, disc) if file])
 
 
 def _draw(analysis: "Analysis", target: Path) -> None:
@@ -123,14 +154,38 @@ def _draw(analysis: "Analysis", target: Path) -> None:
     save_picture(curves(found.times, groups, title=analysis.source.name), target)
 
 
+def _draw_disc(good: Sequence["Analysis"], target: Path) -> None:
+    from ..formats import files
+    from ..render.disc import Dot, disc, disc_page
+    from .render import save_picture
+
+    read = zip(_short_names([analysis.source for analysis in good]), good, strict=True)
+    dots = [Dot.of(name, analysis.reading) for name, analysis in read if analysis.reading]
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if target.suffix.lower() == ".png":
+        save_picture(disc(dots), target)
+    else:
+        files.write(target, disc_page(dots).encode(errors="replace"))
+
+
+def _short_names(paths: Sequence[Path]) -> list[str]:
+    """Return the names of clips below the folder that all lie in."""
+    whole = [path.resolve() for path in paths]
+    try:
+        top = os.path.commonpath([path.parent for path in whole])
+    except ValueError:  # on different drives
+        return [str(path) for path in paths]
+    return [path.relative_to(top).as_posix() for path in whole]
+
+
 def _say(
     good: Sequence["Analysis"],
     every: bool,
     laban: bool,
     per: str,
     out: Path | None,
-    plot: Path | None,
     as_json: bool,
+    drawn: bool,
 ) -> None:
     """Write the table to its file or to stdout; without one, say what a person can read."""
     from .tables import as_csv, write_table
@@ -142,14 +197,12 @@ def _say(
         show_json([_as_data(analysis, every, per) for analysis in good])
     elif every:
         typer.echo(as_csv(_columns(good, per)), nl=False)
-    elif not (plot or laban):
-        for analysis in good:
-            _read_out(analysis)
     elif laban:
         for start in range(0, len(good), BESIDE):
             _show(good[start : start + BESIDE])
-    if plot and not as_json:
-        typer.echo(str(plot))
+    elif not drawn:
+        for analysis in good:
+            _read_out(analysis)
 
 
 def _read_out(analysis: "Analysis") -> None:
@@ -176,7 +229,7 @@ def _features(analysis: "Analysis") -> "Features":
 
 
 def _rows(analysis: "Analysis", per: str) -> dict[str, list[Any]]:
-    """Return the columns of one clip: the file, the time in seconds, and the features."""
+    """Return the columns of one clip: the file, the seconds, what a whole clip expresses, the features."""
     from ..analysis.laban_table import FEATURES
 
     found = _features(analysis)
@@ -188,7 +241,21 @@ def _rows(analysis: "Analysis", per: str) -> dict[str, list[Any]]:
         names, values, times = tuple(f.name for f in FEATURES), found.frames, found.times.tolist()
     first: dict[str, list[Any]] = {"file": [str(analysis.source)] * len(times)}
     first |= {"duration" if per == "clip" else "time": times}
+    if per == "clip" and analysis.reading:
+        first |= {name: [value] for name, value in _read_columns(analysis.reading).items()}
     return first | dict(zip(names, values.T.tolist(), strict=True))
+
+
+def _read_columns(reading: "Reading") -> dict[str, Any]:
+    """Return what a clip expresses as columns of a table."""
+    label, probability = next(iter(reading.labels.items()))
+    return {
+        **reading.place._asdict(),
+        "quadrant": reading.quadrant,
+        "label": label,
+        "probability": probability,
+        "against": reading.against,
+    }
 
 
 def _columns(good: Sequence["Analysis"], per: str) -> dict[str, list[Any]]:
@@ -242,7 +309,7 @@ def _short(value: float) -> str:
     return f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}"
 
 
-def _end(done: Sequence["Analysis"]) -> None:
+def end(done: Sequence["Analysis"]) -> None:
     """Complain of what failed, and end with the exit code."""
     failed = [analysis for analysis in done if analysis.error]
     for analysis in failed:

@@ -9,6 +9,7 @@ from .demo import demo
 from .diff import diff
 from .doctor import doctor
 from .edit import edit
+from .find import find
 from .grid import grid
 from .info import info
 from .learn import learn
@@ -25,6 +26,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     blend,
     presets,
     analyze,
+    find,
     learn,
     diff,
     check,

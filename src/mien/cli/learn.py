@@ -2,9 +2,9 @@
 
 import csv
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -14,9 +14,12 @@ from .report import complain, located, note, progress, show_json
 
 if TYPE_CHECKING:
     from ..emotion.circumplex import Point
+    from ..emotion.learning import Take
+    from ..motion import Motion
 
 WHAT = ("emotion",)
 COLUMNS = ("file", "label", "content", "performer")
+SCORES = "scores on contents left out"
 
 
 def learn(
@@ -57,7 +60,7 @@ def learn(
     """
     from ..emotion.learning import learn as fit
     from ..emotion.learning import measure_takes, scores
-    from ..emotion.model import NEUTRAL, format_model
+    from ..emotion.model import format_model
     from ..formats import files
     from .inputs import expand, refuse_existing
 
@@ -67,80 +70,125 @@ def learn(
         refuse_existing([out])
     files.check_folder(out.parent)
     found = [clip.path for clip in expand(clips)]
-    other = dict(item.partition("=")[::2] for item in rename or []) | {neutral: NEUTRAL}
-    named = list(_labelled(found, labels, other))
-    places = _places(place or [], {label for _, label, _, _ in named})
-    takes = measure_takes(_opened(named))
-    quality = scores(takes, places)
-    card = {
-        "source": source,
-        "licence": licence,
+    named = _renamed(list(_labelled(found, labels)), rename or [], neutral)
+    places = _places(place or [], {clip.label for clip in named})
+    failed: list[Path] = []
+    takes = measure_takes(_opened(named, failed))
+    card = {"source": source, "licence": licence, **_card(takes, place or [], scores(takes, places))}
+    out.parent.mkdir(parents=True, exist_ok=True)
+    files.write(out, format_model(fit(takes, places, card=card)).encode())
+    if as_json:
+        show_json({"model": str(out), **card})
+    else:
+        for name, value in card[SCORES].items():
+            typer.echo(f"{name:<22}{value:g}")
+        typer.echo(str(out))
+    if failed:
+        note(f"{len(named) - len(failed)} of {len(named)} clips learned from, {len(failed)} failed")
+        raise typer.Exit(1)
+
+
+def _card(takes: "Sequence[Take]", told: Sequence[str], quality: Mapping[str, float]) -> dict[str, Any]:
+    return {
         "takes": len(takes),
         "labels": sorted({take.label for take in takes}),
         "contents": sorted({take.content for take in takes}),
         "performers": sorted({take.performer for take in takes}),
-        "places told": sorted(place or []),
-        "scores on contents left out": quality,
+        "places told": sorted(told),
+        SCORES: quality,
         "good for": "reading what differs between two clips of one person; not for judging real people",
     }
-    files.write(out, format_model(fit(takes, places, card=card)).encode())
-    if as_json:
-        show_json({"model": str(out), **card})
-        return
-    for name, value in quality.items():
-        typer.echo(f"{name:<22}{value:g}")
-    typer.echo(str(out))
 
 
-def _labelled(
-    found: Sequence[Path], labels: str, other: Mapping[str, str]
-) -> Iterator[tuple[Path, str, str, str]]:
-    """Yield the clips that have a label: path, label, content, performer; ``other`` renames labels."""
-    table = _table(Path(labels)) if labels.lower().endswith(".csv") else _matched(found, labels)
-    named = [(path, table[path.name]) for path in found if path.name in table]
-    if not named:
+class _Named(NamedTuple):
+    """A clip and what is said of it."""
+
+    path: Path
+    label: str
+    content: str
+    performer: str
+
+
+def _labelled(found: Sequence[Path], labels: str) -> Iterator[_Named]:
+    """Yield the clips that have a label."""
+    says = _table(Path(labels)) if labels.lower().endswith(".csv") else _pattern(labels)
+    seen = False
+    for path in found:
+        about = says(path)
+        if about and about.get("label"):
+            seen = True
+            yield _Named(path, *(about.get(key) or "" for key in COLUMNS[1:]))
+    if not seen:
         raise MienError(f"--labels {labels} says nothing about any of the {len(found)} clips")
-    for path, about in named:
-        label, content, performer = (about.get(key) or "" for key in COLUMNS[1:])
-        yield path, other.get(label, label), content, performer
 
 
-def _table(path: Path) -> dict[str, dict[str, str]]:
+def _table(path: Path) -> Callable[[Path], Mapping[str, str] | None]:
+    """Return what finds the line of a clip: that whose file name, with its folders, is the clip's."""
     from .inputs import existing
 
-    with existing(path).open(encoding="utf-8-sig", newline="") as file:
-        rows = list(csv.DictReader(file))
+    try:
+        with existing(path).open(encoding="utf-8-sig", newline="") as file:
+            rows = list(csv.DictReader(file))
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise MienError(f"{path}: is no table of text ({error})") from None
     if not rows or not {"file", "label"} <= set(rows[0]):
         raise MienError(f"{path}: needs a first line with the columns {', '.join(COLUMNS)}")
-    return {Path(row["file"]).name: row for row in rows if row["file"]}
+    named: dict[str, list[tuple[tuple[str, ...], dict[str, str]]]] = {}
+    for row in rows:
+        parts = Path(row["file"] or "").parts
+        if parts:
+            named.setdefault(parts[-1], []).append((parts, row))
+
+    def says(clip: Path) -> dict[str, str] | None:
+        whole = clip.resolve().parts
+        fits = [(len(p), row) for p, row in named.get(clip.name, []) if whole[-len(p) :] == p]
+        return max(fits, key=lambda fit: fit[0])[1] if fits else None
+
+    return says
 
 
-def _matched(found: Sequence[Path], pattern: str) -> dict[str, dict[str, str]]:
+def _pattern(pattern: str) -> Callable[[Path], Mapping[str, str] | None]:
     try:
         compiled = re.compile(pattern)
     except re.error as error:
         raise MienError(f"--labels: {pattern!r} is no pattern: {error}") from None
     if "label" not in compiled.groupindex:
         raise MienError(f"--labels: {pattern!r} must say where the label is: (?P<label>...)")
-    matches = ((path, compiled.search(path.stem)) for path in found)
-    return {path.name: match.groupdict() for path, match in matches if match}
+
+    def says(clip: Path) -> dict[str, str] | None:
+        match = compiled.search(clip.stem)
+        return match.groupdict() if match else None
+
+    return says
+
+
+def _renamed(named: Sequence[_Named], rename: Sequence[str], neutral: str) -> list[_Named]:
+    """Return the clips with their labels as told, and the neutral ones called so."""
+    from ..emotion.model import NEUTRAL
+
+    labels, other = {clip.label for clip in named}, {}
+    for item in rename:
+        old, _, new = item.partition("=")
+        if not new:
+            raise MienError(f"--rename {item!r}: write OLD=NEW")
+        if old not in labels:
+            raise MienError("--rename: " + unknown("label", old, labels))
+        other[old] = new
+    called = [clip._replace(label=other.get(clip.label, clip.label)) for clip in named]
+    return [clip._replace(label=NEUTRAL) if clip.label == neutral else clip for clip in called]
 
 
 def _places(given: Sequence[str], labels: set[str]) -> "Mapping[str, Point]":
     """Return where labels stand: those that are emotion words by themselves, others as told."""
-    from ..emotion.circumplex import Point, clamp, point, words
+    from ..emotion.circumplex import Point, point, words
 
     known = words()
-    found: dict[str, Point] = {label: known[label] for label in labels & set(known)}
+    found: dict[str, Point] = {label: known[label] for label in sorted(labels & set(known))}
     for item in given:
         label, _, where = item.partition("=")
         if label not in labels:
             raise MienError("--place: " + unknown("label", label, labels))
-        try:
-            valence, arousal = (float(v) for v in where.split(","))
-            found[label] = clamp(valence, arousal)
-        except ValueError:
-            found[label] = point(where)
+        found[label] = _coordinates(where) or point(where)
     if len(set(found) - {"neutral"}) < 2:
         raise MienError(
             "two or more labels need a place on the disc: give them with --place LABEL=VALENCE,AROUSAL"
@@ -148,11 +196,31 @@ def _places(given: Sequence[str], labels: set[str]) -> "Mapping[str, Point]":
     return found
 
 
-def _opened(named: Sequence[tuple[Path, str, str, str]]) -> "Iterator":  # type: ignore[type-arg]
-    """Yield the motions with their labels; what cannot be read is told and left out."""
-    for path, label, content, performer in progress(named, total=len(named), doing="learning"):
+def _coordinates(text: str) -> "Point | None":
+    """Return the point that two numbers name, or None where they are no numbers."""
+    from math import isfinite
+
+    from ..emotion.circumplex import clamp
+
+    try:
+        numbers = [float(v) for v in text.split(",")]
+    except ValueError:
+        return None
+    if len(numbers) != 2 or not all(map(isfinite, numbers)):
+        raise MienError(f"--place: a place is two numbers from -1 to 1, VALENCE,AROUSAL, not {text!r}")
+    return clamp(*numbers)
+
+
+def _opened(named: Sequence[_Named], failed: list[Path]) -> "Iterator[tuple[Motion, str, str, str]]":
+    """Yield the motions with what is said of them; what cannot be used is told, and noted in ``failed``."""
+    from ..kinematics.body import Body
+
+    for clip in progress(named, total=len(named), doing="learning"):
         try:
-            yield a.opened(path, None, False, None), label, content, performer
+            motion = a.opened(clip.path, None, False, None)
+            Body.of(motion)
         except MienError as error:
-            complain(located(path, str(error)))
-            note(f"mien: note: {path} is left out")
+            complain(located(clip.path, str(error)))
+            failed.append(clip.path)
+        else:
+            yield motion, *clip[1:]

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..analysis.laban import features
 from ..analysis.laban_table import DERIVED
-from ..analysis.manner import Manner, difference, usual_manner
+from ..analysis.manner import Manner, body_beside, difference, usual_manner
 from ..analysis.manner_features import manner_features
 from ..errors import MienError
 from ..kinematics.body import Body
@@ -68,7 +68,7 @@ def measure_takes(clips: Iterable[tuple[Motion, str, str, str]]) -> list[Take]:
         body = Body.of(rest)
         manner, laban = Manner.of(rest, body=body), features(rest, body=body).clip
         for motion, label in some:
-            own = body if motion.skeleton.names == rest.skeleton.names else Body.of(motion)
+            own = body_beside(body, rest, motion)
             change = manner_features(difference(manner, Manner.of(motion, body=own)))
             derived = features(motion, body=own).clip
             takes.append(Take(label, content, performer, change, Manner.of(motion), derived, laban))
@@ -143,8 +143,10 @@ def scores(takes: Sequence[Take], places: Mapping[str, Point]) -> dict[str, floa
 
     ``change``, ``alone`` and ``laban`` are the three readings; ``top-1`` of all labels (``chance`` is that of
     guessing), ``quadrant`` and mean ``distance`` on the disc of the labels with a place. ``acted`` leaves out
-    the neutral takes, whose change is nothing.
+    the neutral takes, whose change is nothing. Raises ``MienError`` for takes of one content only.
     """
+    if len({take.content for take in takes}) < 2:
+        raise MienError("how well contents are read that were not seen needs takes of two or more contents")
     hits: dict[str, list[float]] = {}
 
     def note(name: str, value: float) -> None:

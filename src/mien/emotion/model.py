@@ -9,6 +9,7 @@ Laban features of the clip alone, through radial basis functions (Aristidou et a
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -16,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from ..analysis.laban_table import DERIVED
-from ..analysis.manner import Manner
-from ..analysis.manner_features import FEATURES
+from ..analysis.manner import Manner, difference
+from ..analysis.manner_features import FEATURES, manner_features
 from ..errors import MienError
 from ..signal.discriminant import Discriminant
 from ..signal.radial import Radial
@@ -29,6 +30,7 @@ SHIPPED = "bandai"
 NEUTRAL = "neutral"
 CLIP = (-0.25, 1.25)  # how far new clips may go beyond the [0, 1] of the training clips
 MOST = 3.0  # times what is usual
+TINY, MOST_NUMBER = 1e-6, 1e9  # sizes and numbers of a model are between these
 QUALITIES = ("swing", "rate", "sharpness")
 LABAN = ("low", "high", "mean", "components")
 SURFACE = ("centres", "constant", "linear", "radial")
@@ -109,21 +111,28 @@ class EmotionModel:
         return clamp(float(valence), float(arousal))
 
 
-def load_model(source: str | Path = SHIPPED) -> EmotionModel:
-    """Return the model in a file that ``mien learn`` wrote, or a shipped one by its name.
+def load_model(source: str | Path) -> EmotionModel:
+    """Return the model in a file that ``mien learn`` wrote, or a shipped one by its name, ``"bandai"``.
 
     Raises ``MienError`` for a file that is not there or is no model.
     """
-    if isinstance(source, str) and source == SHIPPED:
-        text = files(__package__).joinpath("models", f"{source}.json").read_text(encoding="utf-8")
-        return _read(text, f"model {source}")
+    if source == SHIPPED:
+        return shipped_model()
     try:
-        return _read(Path(source).read_text(encoding="utf-8"), str(source))
-    except (OSError, UnicodeDecodeError) as error:
+        text = Path(source).read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not text"
         raise MienError(
-            f"{source}: cannot be read as a model: {reason}; give a file of mien learn, or {SHIPPED!r}"
+            f"{source!s:.200}: cannot be read as a model: {reason}; give a file of mien learn, or {SHIPPED!r}"
         ) from None
+    return _read(text, str(source))
+
+
+@cache
+def shipped_model() -> EmotionModel:
+    """Return the model that comes with mien."""
+    text = files(__package__).joinpath("models", f"{SHIPPED}.json").read_text(encoding="utf-8")
+    return _read(text, f"model {SHIPPED}")
 
 
 def format_model(model: EmotionModel) -> str:
@@ -167,45 +176,80 @@ def _manners(manners: Manners) -> dict[str, Any]:
 def _read(text: str, where: str) -> EmotionModel:
     try:
         data = json.loads(text)
-        if data["version"] != VERSION:
-            raise MienError(f"{where}: is a model of version {data['version']!r}, this mien reads {VERSION}")
-        model = EmotionModel(
-            card=data["card"],
-            places={label: Point(*place) for label, place in data["places"].items()},
-            change=_read_manners(data["change"]),
-            rest=_read_rest(data["rest"]),
-            alone=_read_manners(data["alone"]),
-            laban=_read_laban(data["laban"]),
-            changes={label: np.array(change, float) for label, change in data["changes"].items()},
-        )
-        # What does not fit together shows when it is used once.
-        model.place(model.change.probabilities(np.zeros(len(FEATURES))))
-        model.place(model.alone.probabilities(np.zeros(len(FEATURES))))
-        model.laban.place(np.zeros(len(DERIVED)))
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError) as error:
-        if isinstance(error, MienError):
-            raise
-        raise MienError(f"{where}: is no model of emotion that mien learn wrote ({error!r:.80})") from None
+        version = data["version"]
+        if version == VERSION:
+            return _tried(_parsed(data))
+        why = f"version {version!r:.40} where this mien reads {VERSION}"
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, ArithmeticError) as error:
+        why = str(error) if isinstance(error, MienError) else f"{type(error).__name__}: {error!s:.100}"
+    except RecursionError:
+        why = "nested too deep"
+    raise MienError(f"{where}: is no model of emotion that mien learn wrote ({' '.join(why.split())})")
+
+
+def _parsed(data: dict[str, Any]) -> EmotionModel:
+    return EmotionModel(
+        card=dict(data["card"]),
+        places={label: clamp(*map(_number, place)) for label, place in data["places"].items()},
+        change=_read_manners(data["change"]),
+        rest=_read_rest(data["rest"]),
+        alone=_read_manners(data["alone"]),
+        laban=_read_laban(data["laban"]),
+        changes={label: _array(change, len(DERIVED)) for label, change in data["changes"].items()},
+    )
+
+
+def _tried(model: EmotionModel) -> EmotionModel:
+    """Return the model after using everything once: what does not fit together shows."""
+    nothing = manner_features(difference(model.rest, model.rest))
+    model.place(model.change.probabilities(nothing))
+    model.place(model.alone.probabilities(nothing))
+    model.laban.place(np.zeros(len(DERIVED)))
     return model
 
 
 def _read_manners(data: dict[str, Any]) -> Manners:
-    weights, offsets = np.array(data["weights"], float), np.array(data["offsets"], float)
-    planes = Discriminant(tuple(data["names"]), weights, offsets)
-    return Manners(np.array(data["middle"], float), np.array(data["scale"], float), planes)
+    names, count = tuple(data["names"]), len(FEATURES)
+    if len(set(names)) < max(len(names), 2) or not all(isinstance(name, str) for name in names):
+        raise MienError("labels must be two or more different names")
+    planes = Discriminant(
+        names, _array(data["weights"], len(names), count), _array(data["offsets"], len(names))
+    )
+    return Manners(_array(data["middle"], count), _array(data["scale"], count, least=TINY), planes)
 
 
 def _read_rest(data: dict[str, Any]) -> Manner:
-    pose = {segment: np.array(q, float) for segment, q in data["pose"].items()}
-    return Manner(pose, float(data["hips_height"]), **{key: dict(data[key]) for key in QUALITIES})
+    pose = {segment: _array(q, 4) for segment, q in data["pose"].items()}
+    if not all(abs(float(q @ q) - 1.0) < 1e-3 for q in pose.values()):
+        raise MienError("rotations must be unit quaternions")
+    sizes = {key: {k: _number(v, least=TINY) for k, v in data[key].items()} for key in QUALITIES}
+    return Manner(pose, _number(data["hips_height"]), **sizes)
 
 
 def _read_laban(data: dict[str, Any]) -> Laban:
-    about = data["surface"]
-    parts = {key: np.array(about[key], float) for key in SURFACE}
-    surface = Radial("gaussian", sigma=float(about["sigma"]), ridge=float(about["ridge"]), **parts)
-    arrays = {key: np.array(data[key], float) for key in LABAN}
-    return Laban(tuple(int(i) for i in data["selected"]), surface=surface, **arrays)
+    about, selected = data["surface"], tuple(int(i) for i in data["selected"])
+    if not all(0 <= i < len(DERIVED) for i in selected):
+        raise MienError(f"selected features must be 0 to {len(DERIVED) - 1}")
+    sigma, ridge = _number(about["sigma"], least=TINY), _number(about["ridge"], least=0.0)
+    surface = Radial("gaussian", sigma=sigma, ridge=ridge, **{key: _array(about[key]) for key in SURFACE})
+    return Laban(selected, surface=surface, **{key: _array(data[key]) for key in LABAN})
+
+
+def _number(value: Any, *, least: float = -MOST_NUMBER) -> float:
+    """Return a number of a file; raise ``MienError`` for one that is not finite, or out of reason."""
+    found = float(value)
+    if not least <= found <= MOST_NUMBER:
+        raise MienError(f"{value!r:.40} is out of range")
+    return found
+
+
+def _array(values: Any, *shape: int, least: float = -MOST_NUMBER) -> Array:
+    found: Array = np.array(values, float)
+    if shape and found.shape != shape:
+        raise MienError(f"{shape} numbers are expected, not {found.shape}")
+    if not ((found >= least) & (found <= MOST_NUMBER)).all():
+        raise MienError("a number is out of range")
+    return found
 
 
 def _plain(values: Array) -> Any:

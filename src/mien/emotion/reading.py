@@ -1,15 +1,16 @@
 """What a motion expresses, and why: its place on the circumplex, the likeliest labels, their reasons."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
-from ..analysis.manner import Manner, difference
+from ..analysis.manner import Manner, body_beside, difference
 from ..analysis.manner_features import FEATURES, manner_features
 from ..kinematics.body import Body
 from ..motion import Motion, require_motion
+from ..typing import Array
 from .circumplex import QUADRANTS, Point, nearest, quadrant
-from .model import NEUTRAL, EmotionModel, load_model
+from .model import NEUTRAL, EmotionModel, shipped_model
 
 REASONS = 6
 CLEAR = 0.25  # of what is usual: smaller changes are no reason
@@ -33,13 +34,21 @@ class Reading:
 
     ``place`` on the disc, ``labels`` with their probabilities, the likeliest first, ``why`` the first of
     them, the strongest reason first. ``against`` says with what it was compared: ``neutral``, the person's
-    own clip, or ``usual``, how people usually are, which is a guess.
+    own clip, or ``usual``, how people usually are, which is a guess. ``manner`` (F,) is what differs from
+    that, in units of what is usual: a point in the space where manners are compared.
     """
 
     place: Point
     labels: Mapping[str, float]
     why: tuple[Reason, ...]
     against: str
+    manner: Array = field(repr=False)
+
+    def _repr_html_(self) -> str:
+        """Return the disc, the labels and the reasons for notebooks; the front door knows who draws them."""
+        import mien
+
+        return mien.render.reading_html(self)
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -69,23 +78,24 @@ def read(motion: Motion, *, neutral: Motion | None = None, model: EmotionModel |
     """Return what a motion expresses.
 
     ``neutral`` is a clip of the same person, best of the same action: the reading is then of what differs,
-    which is much surer. Without it an edited motion is compared with what it was made from, any other with
-    how people usually are. ``model`` is a learned one (``load_model``), else the shipped one. Raises
-    ``BodyError`` where no body is found.
+    which is much surer. Without it an edited motion is compared with what it was made from, which has gone
+    through its changes of tempo too, so that they do not count; any other with how people usually are.
+    ``model`` is a learned one (``load_model``), else the shipped one. Raises ``BodyError`` where no body is
+    found.
 
     >>> from mien import samples
     >>> walk = samples.walk(seconds=4.0).motion
     >>> read(mien.edit(walk, "sad")).quadrant
     'mild and unpleasant'
     """
-    model = model or load_model()
-    before = neutral if neutral is not None else require_motion(motion).reference
+    model, motion = model or shipped_model(), require_motion(motion)
+    before = motion.reference if neutral is None else require_motion(neutral)
     if before is None:
         numbers = manner_features(difference(model.rest, Manner.of(motion)))
         manners = model.alone
     else:
         body = Body.of(before)
-        own = body if before.skeleton.names == motion.skeleton.names else None
+        own = body_beside(body, before, motion)
         numbers = manner_features(difference(Manner.of(before, body=body), Manner.of(motion, body=own)))
         manners = model.change
     labels = manners.probabilities(numbers)
@@ -94,4 +104,5 @@ def read(motion: Motion, *, neutral: Motion | None = None, model: EmotionModel |
     order = [i for i in (-pulls).argsort() if pulls[i] > 0.0 and abs(unusual[i]) > CLEAR][:REASONS]
     off = numbers - manners.middle
     why = tuple(Reason(FEATURES[i].label, FEATURES[i].said(float(off[i])), float(pulls[i])) for i in order)
-    return Reading(model.place(labels), labels, why, "usual" if before is None else "neutral")
+    against = "usual" if before is None else "neutral"
+    return Reading(model.place(labels), labels, why, against, unusual)
