@@ -7,6 +7,7 @@ from mien import samples
 from mien.analysis.laban import PACE, features, pace
 from mien.analysis.laban_table import SELECTED
 from mien.emotion.control_features import AFFECTED, POSE, Poses, faces, measured
+from mien.emotion.wishes import FLOOR
 from mien.kinematics.body import Body
 from mien.kinematics.control_points import NAMES, moved
 from mien.kinematics.landmarks import INDEX, landmarks
@@ -115,12 +116,16 @@ def test_what_the_rules_say_is_nearly_what_the_body_does(given: dict[str, float]
         assert np.abs(ruled - after)[:, i].mean() < (0.6 if number == 20 else 0.125) * change + 1e-4
 
 
-def test_faces_of_before_serve_a_small_change() -> None:
-    motion = samples.wave(fps=10.0).motion
+@pytest.mark.parametrize("name", ["walk", "wave"])
+def test_faces_of_before_serve_a_small_change(name: str) -> None:
+    """What is missed is a tenth of the least change that counts; hulls themselves change by more."""
+    motion = samples.SAMPLES[name](fps=10.0).motion
     body = Body.of(motion)
     poses = Poses.of(motion, body)
-    c = np.full((1, len(NAMES)), 1.05)
-    near = poses.ruled(c)[0]
-    quick, exact = measured(near, body.up, found=faces(poses.points)), measured(near, body.up)
-    change = np.abs(exact - measured(poses.points, body.up)).mean(axis=0)
-    assert (np.abs(quick - exact).mean(axis=0) <= 0.15 * change + 1e-9).all()
+    c = np.full((1, len(NAMES)), 0.9)
+    here, there = poses.ruled(c)[0], poses.ruled(c * 1.03)[0]
+    quick, exact = measured(there, body.up, found=faces(here)), measured(there, body.up)
+    hulls = [POSE.index(n) for n in (18, 19, 26, 27, 28, 29)]
+    least = 0.1 * FLOOR["heights^3"]
+    assert np.abs((quick - exact).mean(axis=0)[hulls]).max() < least
+    assert np.abs((exact - measured(here, body.up)).mean(axis=0)[hulls]).max() > least

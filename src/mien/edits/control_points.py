@@ -32,8 +32,9 @@ def _hand(side: str, place: str) -> Param:
     equation="h' = c h (c <= 1), h + (h_T - h)(1 - 1/c); d' = d_T - (d_T - d) / c; "
     "p' = p + 1/4 sum_r (p - r)(c_r - 1)",
     deviations="vectors of the printed table are read the other way round; a pelvis above its calm height "
-    "rises by (h - h_T)(c - 1), continuous at 1. Rules and inverse kinematics are done in every frame, not "
-    "in every fifth; hands go with the trunk before their own rule",
+    "rises by (h - h_T)(c - 1), continuous at 1; upright (d_T) is 6 degrees behind the vertical, as bent "
+    "further is to be forwards. Rules and inverse kinematics are done in every frame, not in every fifth; "
+    "hands go with the trunk before their own rule",
 )
 def control_points(
     motion: Motion,
@@ -64,7 +65,7 @@ def control_points(
 
     >>> from mien.samples import walk
     >>> control_points(walk(seconds=1.0).motion, pelvis=0.95, left_ground=0.8, right_ground=0.8)
-    Motion('walk', 61 frames, 22 joints, 1 step, 60 fps, 1.00 s)
+    Motion('walk', 61 frames, 22 joints, 60 fps, 1.00 s, 1 step)
     """
     left = (left_head, left_chest, left_pelvis, left_ground)
     right = (right_head, right_chest, right_pelvis, right_ground)

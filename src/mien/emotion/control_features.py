@@ -81,7 +81,7 @@ class Poses:
         """Return the points (N, K, 19, 3) after the rules g1 to g3, for each of ``coefficients`` (N, 10).
 
         They are in the order of ``kinematics.control_points.NAMES``. No body is asked whether it can do that.
-        Elbows go half as far as hands.
+        Elbows bend as arms do.
         """
         many, keys = len(coefficients), len(self.points)
         c = np.repeat(coefficients, keys, axis=0)
@@ -114,9 +114,30 @@ class Poses:
             ground = hand - (hand @ self.up - self.floor)[:, None] * self.up
             places = [ground if name == "ground" else points[:, INDEX[name]] for name in REFERENCES]
             moved = hand_position(hand, np.stack(places, axis=1), c[:, 4 * i : 4 * i + 4]) - hand
-            points[:, INDEX[f"{side}_elbow"]] += 0.5 * moved
-            points[:, INDEX[f"{side}_hand"]] += moved
+            points[:, INDEX[f"{side}_elbow"]] = _elbow(points, side, hand + moved)
+            points[:, INDEX[f"{side}_hand"]] = hand + moved
         return points
+
+
+def _elbow(points: Array, side: str, hand: Array) -> Array:
+    """Return where the elbow (T, 3) is when the hand is elsewhere: on its side of the line, bones as long.
+
+    A hand out of reach has it on the line.
+    """
+    shoulder, elbow, before = (points[:, INDEX[f"{side}_{p}"]] for p in ("shoulder", "elbow", "hand"))
+    upper, lower = elbow - shoulder, before - elbow
+    line = hand - shoulder
+    square = np.maximum(_dot(line, line), 1e-12)
+    share = 0.5 * (1.0 + (_dot(upper, upper) - _dot(lower, lower)) / square)
+    share = np.clip(share, -1.0, 2.0)
+    aside = upper - (_dot(upper, line) / square)[:, None] * line
+    height = np.sqrt(np.maximum(_dot(upper, upper) - share**2 * square, 0.0))
+    out = aside / np.maximum(np.sqrt(_dot(aside, aside)), 1e-9)[:, None]
+    return np.asarray(shoulder + share[:, None] * line + height[:, None] * out)
+
+
+def _dot(a: Array, b: Array) -> Array:
+    return np.asarray(np.einsum("ti,ti->t", a, b))
 
 
 def faces(points: Array) -> list[Integers]:

@@ -14,7 +14,7 @@ from ..kinematics.landmarks import landmarks
 from ..motion import Motion
 from ..typing import Array, Integers
 from .control_features import faces
-from .rule_fitting import HIGH, LOW, PENALTY, ROUGH, STEP, Wish
+from .rule_fitting import HIGH, LOW, ROUGH, STEP, Wish, penalty
 
 TRIALS = 5  # of the search at most
 APART = 10.0  # seconds between keyframes, so that the way from one to the next says nothing
@@ -27,6 +27,7 @@ class _Search:
         self.wish = wish
         self.planted = detect(wish.motion, body=wish.body).feet[wish.frames]
         self.aim = wish.wanted_poses()
+        self.last: tuple[bytes, Array, Sequence[Integers]] = (b"", np.zeros(0), ())
 
     def points(self, coefficients: Array) -> Array:
         """Return the landmarks (N, K, 19, 3) in heights for each of (N, 10) coefficients."""
@@ -39,20 +40,25 @@ class _Search:
 
     def misses(self, c: Array) -> Array:
         """Return all misses for coefficients (11,); half their squares' sum is what is made small."""
-        return self._all(self.points(c[None, :-1]), c[None])[0]
+        points = self.points(c[None, :-1])
+        self.last = c.tobytes(), points, faces(points[0])
+        return self._all(points, c[None], self.last[2])[0]
 
     def slopes(self, c: Array) -> Array:
         """Return the slope of each miss with each coefficient, by differences, hulls with the same faces."""
+        if self.last[0] != c.tobytes():
+            self.misses(c)
+        _, here, near = self.last
         steps = np.where(c + STEP <= HIGH, STEP, -STEP)
-        trials = np.vstack([c, c + np.diag(steps)])
-        points = self.points(trials[:-1, :-1])
-        found = self._all(np.concatenate([points, points[:1]]), trials, faces(points[0]))
-        return np.asarray((found[1:] - found[0]).T / steps)
+        trials = c + np.diag(steps)
+        there = np.concatenate([self.points(trials[:-1, :-1]), here])  # tempo moves no point
+        before, after = self._all(here, c[None], near), self._all(there, trials, near)
+        return np.asarray((after - before).T / steps)
 
-    def _all(self, points: Array, trials: Array, near: Sequence[Integers] | None = None) -> Array:
+    def _all(self, points: Array, trials: Array, near: Sequence[Integers]) -> Array:
         pace = self.wish.pace_misses(trials[:, -1:])
         pose = self.wish.misses(points, self.aim, near=near)
-        return np.concatenate([pose, pace, PENALTY * np.log(trials)], axis=1)
+        return np.concatenate([pose, pace, penalty(trials, LOW, HIGH)], axis=1)
 
 
 def joint(wish: Wish, start: Array) -> Array:
@@ -68,7 +74,8 @@ def joint(wish: Wish, start: Array) -> Array:
     found = least_squares(
         search.misses, inside, search.slopes, (LOW, HIGH), ftol=ROUGH, xtol=ROUGH, max_nfev=TRIALS
     )
-    return found.x if found.cost <= objective(wish, start) else start
+    before = 0.5 * float((search.misses(start) ** 2).sum())
+    return found.x if found.cost <= before else start
 
 
 def objective(wish: Wish, c: Array) -> float:

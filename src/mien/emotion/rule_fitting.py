@@ -5,7 +5,7 @@ A. Aristidou et al., *Emotion control of unstructured dance movements*, SCA 2017
 
 Differences: features are counted in units of what emotions usually change; a feature that several rules
 affect is shared among them; a small penalty on ``log c`` keeps at 1 what does nothing; the keyframes of long
-clips are thinned out; faces of hulls are found once for each rule.
+clips are thinned out; faces of hulls are found at the start and for the hands, not for each trial.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,12 +25,14 @@ from ..typing import Array, Integers
 from .control_features import AFFECTED, POSE, Poses, faces, measured
 
 KEYFRAMES = 6.0  # a second: every fifth frame of 30
-MOST = 32  # keyframes, evenly spread over longer clips
-PENALTY = 1.0  # of log c, in units of what a feature usually changes
+MOST = 24  # keyframes, evenly spread over longer clips
+PENALTY = 1.4  # of log c, over half its range, in usual changes of one feature
 STEP = 1e-4  # of a coefficient, for its slope
 NUDGE = 0.02  # of the range that a search starts from its ends
 ROUGH, TRIALS = 1e-3, 12  # a search ends where it gains less, or after so many
 _ORDER = np.array([{**dict.fromkeys(range(12, 17), 2), 17: 3}.get(number, 1) for number in PACE])
+# The rules about poses in their order, and where their coefficients are.
+PLACES = {"pelvis": [0], "torso": [1], "hands": list(range(2, len(NAMES)))}
 LOW, HIGH = (np.array([BOUNDS[n if n in BOUNDS else "hand"][i] for n in (*NAMES, "tempo")]) for i in range(2))
 
 
@@ -38,14 +40,15 @@ LOW, HIGH = (np.array([BOUNDS[n if n in BOUNDS else "hand"][i] for n in (*NAMES,
 class Wish:
     """What is fitted: the motion's keyframes, and the wanted change in units of what is usual.
 
-    ``frames`` of the motion that are looked at, its ``poses`` there, its ``pace`` (14,) features, ``change``
-    (31,) and ``scale`` (31,) of the selected features.
+    ``frames`` of the motion that are looked at, its ``poses`` there, the faces of their hulls (``near``), its
+    ``pace`` (14,) features, ``change`` (31,) and ``scale`` (31,) of the selected features.
     """
 
     motion: Motion
     body: Body
     frames: Integers
     poses: Poses
+    near: Sequence[Integers]
     pace: Array
     change: Array
     scale: Array
@@ -58,11 +61,14 @@ class Wish:
         frames = _keyframes(len(motion) - start, motion.frame_time) + start
         points = landmarks(motion[start:], body).points / body.height
         poses = Poses.of(_at(motion, frames), body)
-        return cls(motion, body, frames, poses, pace(points, body, motion.frame_time), change, scale)
+        near = faces(poses.points)
+        return cls(motion, body, frames, poses, near, pace(points, body, motion.frame_time), change, scale)
 
     def wanted_poses(self) -> Array:
         """Return the features (K, 16) of poses that are wanted, f*: as they are, and the change."""
-        return measured(self.poses.points, self.poses.up) + self.change[[n - 1 for n in POSE]]
+        return (
+            measured(self.poses.points, self.poses.up, found=self.near) + self.change[[n - 1 for n in POSE]]
+        )
 
     def misses(self, points: Array, aim: Array, *, near: Sequence[Integers] | None = None) -> Array:
         """Return how far (N, 16 K) the features of points (N, K, 19, 3) are from ``aim`` (K, 16).
@@ -89,22 +95,30 @@ def sequential(wish: Wish) -> Array:
     A feature that several rules affect is wished from each in equal shares of what is left.
     """
     c = np.ones(len(NAMES) + 1)
-    aim = wish.wanted_poses()
-    rules = (("pelvis", [0]), ("torso", [1]), ("hands", list(range(2, len(NAMES)))))
-    for number, (rule, some) in enumerate(rules):
-        later = [AFFECTED[name] for name, _ in rules[number:]]
-        share = np.array([1.0 / max(sum(f in some for some in later), 1) for f in POSE])
+    aim, near = wish.wanted_poses(), wish.near
+    for number, (rule, some) in enumerate(PLACES.items()):
+        if rule == "hands":
+            near = faces(wish.poses.ruled(c[None, :-1])[0])
+        later = [AFFECTED[name] for name in list(PLACES)[number:]]
+        share = np.array([1.0 / max(sum(f in affected for affected in later), 1) for f in POSE])
         columns = [POSE.index(f) for f in AFFECTED[rule]]
-        c[some] = _fitted(wish, c, some, columns, aim, share)
+        c[some] = _fitted(wish, c, some, columns, aim=aim, share=share, near=near)
     c[-1:] = fit(wish.pace_misses, c[-1:], LOW[-1:], HIGH[-1:])
     return c
 
 
-def _fitted(wish: Wish, c: Array, some: list[int], columns: list[int], aim: Array, share: Array) -> Array:
+def _fitted(
+    wish: Wish,
+    c: Array,
+    some: list[int],
+    columns: list[int],
+    *,
+    aim: Array,
+    share: Array,
+    near: Sequence[Integers],
+) -> Array:
     """Return ``some`` of the coefficients, fitted to ``share`` (16,) of what is left to ``aim`` (K, 16)."""
-    points = wish.poses.ruled(c[None, :-1])[0]
-    near = faces(points)
-    now = measured(points, wish.poses.up, found=near)
+    now = measured(wish.poses.ruled(c[None, :-1])[0], wish.poses.up, found=near)
     target = now + share * (aim - now)
 
     def misses(trials: Array) -> Array:
@@ -116,6 +130,11 @@ def _fitted(wish: Wish, c: Array, some: list[int], columns: list[int], aim: Arra
     return fit(misses, c[some], LOW[some], HIGH[some])
 
 
+def penalty(c: Array, low: Array, high: Array) -> Array:
+    """Return what coefficients (N, P) away from 1 cost, more where their bounds are narrow."""
+    return np.asarray(PENALTY * np.log(c) / (0.5 * np.log(high / low)))
+
+
 def fit(misses: Callable[[Array], Array], start: Array, low: Array, high: Array) -> Array:
     """Return the coefficients with the least squares, by the interior-reflective Newton method of SciPy.
 
@@ -125,7 +144,7 @@ def fit(misses: Callable[[Array], Array], start: Array, low: Array, high: Array)
     from scipy.optimize import least_squares
 
     def whole(trials: Array) -> Array:
-        return np.concatenate([misses(trials), PENALTY * np.log(trials)], axis=1)
+        return np.concatenate([misses(trials), penalty(trials, low, high)], axis=1)
 
     def of_one(x: Array) -> Array:
         return whole(x[None])[0]
@@ -135,8 +154,12 @@ def fit(misses: Callable[[Array], Array], start: Array, low: Array, high: Array)
         found = whole(np.vstack([x, x + np.diag(steps)]))
         return np.asarray((found[1:] - found[0]).T / steps)
 
-    sides = [(low, high)] if len(start) > 1 else [(low, start), (start, high)]
-    best, least = start, 0.5 * float((whole(start[None]) ** 2).sum())
+    best, least = start, 0.5 * float((of_one(start) ** 2).sum())
+    sides = [(low, high)]
+    if len(start) == 1:
+        after = whole(np.stack([start - STEP, start + STEP]))
+        downhill = 0.5 * (after**2).sum(axis=1) < least
+        sides = [side for side, down in zip(((low, start), (start, high)), downhill, strict=True) if down]
     for a, b in sides:
         inside = np.clip(start, a + NUDGE * (b - a), b - NUDGE * (b - a))
         found = least_squares(of_one, inside, slopes, (a, b), ftol=ROUGH, xtol=ROUGH, max_nfev=TRIALS)

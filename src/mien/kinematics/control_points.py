@@ -8,6 +8,7 @@ knees near to straight bend their own way, and in a tenth of the time of the gen
 """
 
 from dataclasses import replace
+from math import cos, radians, sin
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from .two_bone import mean_hinge, softened, two_bone
 
 # The coefficients of the rules, in order: g1, g2, and g3 for both hands.
 NAMES: tuple[str, ...] = ("pelvis", "torso", *(f"{side}_{place}" for side in SIDES for place in REFERENCES))
+BACK = 6.0  # degrees
 SOFT = 0.03  # of an arm's length, before it is straight
 STRAIGHT = 0.994  # of a leg's length: as straight as a planted leg gets when the pelvis rises
 BENDS = 6  # rounds in which the spine is bent: each leaves less than a third
@@ -40,10 +42,16 @@ def rest_height(motion: Motion, body: Body) -> float:
 
 
 def rest_torso(motion: Motion, body: Body, positions: Array) -> Array:
-    """Return the vectors (T, 3) from pelvis to head of the calm stance, in the heading of each frame."""
+    """Return the vectors (T, 3) from pelvis to head that count as upright, in the heading of each frame.
+
+    They are as long as in the calm stance, and ``BACK`` degrees behind the vertical. Captured people stand
+    within 3 degrees of the vertical, on either side, and so does a T-pose: measured from there, further bent
+    would be backwards as often as forwards.
+    """
     still = motion[:1].with_(rotations=body.neutral[None])
     found = landmarks(still, body)
-    torso = found["head"][0] - found["pelvis"][0]
+    length = float(np.linalg.norm(found["head"][0] - found["pelvis"][0]))
+    torso = length * (cos(radians(BACK)) * body.up - sin(radians(BACK)) * body.forward)
     return quaternion.rotate(heading_rotation(positions, body), torso)
 
 
