@@ -41,6 +41,20 @@ def posture() -> "Image":
     return render.compare(rows, against=calm)
 
 
+def control_points() -> "Image":
+    """Low, bent and close; hands far from the body."""
+    calm = walk()
+    places = ("head", "chest", "pelvis")
+    hands = {c: {f"{s}_{p}": c for s in ("left", "right") for p in places} for c in (0.7, 1.4)}
+    rows = {
+        "pelvis 0.93, torso 0.4, hands 0.7": done(
+            calm, Step("control_points", {"pelvis": 0.93, "torso": 0.4, **hands[0.7]})
+        ),
+        "hands 1.4": done(calm, Step("control_points", hands[1.4])),
+    }
+    return render.compare(rows, against=calm)
+
+
 def timing() -> "Image":
     """Show two strokes of a wave: even, as it was, and rushed."""
     strokes = Step("trim", {"start": 1.2, "end": 2.4})
@@ -246,7 +260,7 @@ def below(*images: "Image") -> "Image":
 
 
 PICTURES: Mapping[str, Callable[[], "Image"]] = {
-    **{f"methods/{f.__name__}": f for f in (waveshape, nervous, tempo, displacement, tremor)},
+    **{f"methods/{f.__name__}": f for f in (waveshape, nervous, tempo, displacement, tremor, control_points)},
     **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, impacts, grid, foot_plant)},
     **{f"methods/{f.__name__}": f for f in (repair, restore, trim, resample, mirror, in_place)},
     "presets": presets,

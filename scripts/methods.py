@@ -41,6 +41,7 @@ SHOWN = {
     "tremor": {"amount": 2.0},
     "nervous": {"paths": 0.8, "rhythm": 0.15},
     "restore": {"amount": 0.5},
+    "control_points": {"pelvis": 0.95, "torso": 0.6},
     "tempo": {"rate": 1.2, "travel": "speed"},
 }
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull, QhullError
 
-from mien.analysis.hulls import hull_size, hull_volumes
+from mien.analysis.hulls import faces_volumes, hull_faces, hull_size, hull_volumes
 
 CUBE = np.array(list(product((0.0, 1.0), repeat=3)))
 
@@ -84,3 +84,34 @@ def test_the_area_of_a_path() -> None:
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     assert hull_size(circle) == pytest.approx(np.pi, rel=1e-4)
     assert hull_size(np.stack([angle, 2.0 * angle], axis=1)) == 0.0
+
+
+@pytest.mark.parametrize("count", [4, 7, 19])
+def test_the_faces_of_a_hull_hold_its_volume_and_look_outwards(count: int) -> None:
+    points = np.random.default_rng(count).normal(size=(9, count, 3))
+    groups = [range(count), range(4), range(count)[-5:]]
+    found = hull_faces(points, groups)
+    np.testing.assert_allclose(faces_volumes(points, found), hull_volumes(points, groups), rtol=1e-6)
+    for frame, faces in zip(points, found[0], strict=True):
+        a, b, c = (frame[faces[:, i]] for i in range(3))
+        outwards = np.einsum("fi,fi->f", np.cross(b - a, c - a), a - frame.mean(axis=0))
+        real = faces.any(axis=1)
+        assert (outwards[real] > 0.0).all()
+        assert set(faces[real].ravel()) == set(ConvexHull(frame).vertices)
+
+
+def test_faces_are_good_for_points_nearby() -> None:
+    random = np.random.default_rng(3)
+    points = random.normal(size=(20, 19, 3))
+    near = points + 0.01 * random.normal(size=points.shape)
+    old, true = faces_volumes(near, hull_faces(points, [range(19)])), hull_volumes(near, [range(19)])
+    assert np.abs(old / true - 1.0).max() < 0.005
+    assert np.abs(hull_volumes(points, [range(19)]) / true - 1.0).max() > 0.01, "or this shows nothing"
+
+
+def test_faces_of_too_few_points_are_none() -> None:
+    assert [f.shape for f in hull_faces(np.zeros((2, 3, 3)), [range(3)])] == [(2, 0, 3)]
+    assert faces_volumes(np.zeros((2, 3, 3)), hull_faces(np.zeros((2, 3, 3)), [range(3)])).tolist() == [
+        [0],
+        [0],
+    ]

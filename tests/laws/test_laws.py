@@ -25,6 +25,18 @@ from mien.samples import SAMPLES, SKELETONS
 
 # Edit -> parameters to try beside the defaults. Every new edit gets a line here.
 CASES: Mapping[str, list[dict[str, Any]]] = {
+    "control_points": [
+        {"pelvis": 0.92, "torso": 0.6},
+        {"left_head": 1.3, "right_head": 1.3, "left_pelvis": 1.2, "right_pelvis": 1.2},
+        {
+            "pelvis": 1.2,
+            "torso": 3.0,
+            "left_chest": 1.4,
+            "right_chest": 1.4,
+            "left_ground": 0.7,
+            "right_ground": 0.7,
+        },
+    ],
     "displacement": [
         {"keys": "0.4 head 20 0 0; trunk 8 0 0 | 1 none | 1.8 elbows_out"},
         {"keys": "0.5 arms_legs_in | 2 head_down", "ends": "hold", "method": "body_fixed"},

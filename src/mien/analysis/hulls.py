@@ -35,10 +35,8 @@ def hull_volumes(points: Array, groups: Sequence[Sequence[int]]) -> Array:
     out = np.zeros((len(points), len(chosen)))
     if count < 4 or not chosen:
         return out
-    rows = np.ascontiguousarray(np.moveaxis(points - points.mean(axis=1, keepdims=True), 0, -1))
+    rows, plan = _rows(points), _plan(count, chosen)
     extent = np.abs(rows).max(axis=(0, 1))
-    rows += NUDGE * extent * np.random.default_rng(0).uniform(-1.0, 1.0, (count, 3, 1))
-    plan = _plan(count, chosen)
     frames = min(len(points), max(1, _BLOCK // len(plan.base)))
     room = _Room(plan, frames)
     for start in range(0, len(points), frames):
@@ -48,6 +46,14 @@ def hull_volumes(points: Array, groups: Sequence[Sequence[int]]) -> Array:
         out[part] = _volumes(np.ascontiguousarray(rows[..., part]), plan, room)
     out[out < FLAT * extent[:, None] ** 3] = 0.0
     return out
+
+
+def _rows(points: Array) -> Array:
+    """Return the points, centred and nudged, in rows over frames (N, 3, T)."""
+    rows = np.ascontiguousarray(np.moveaxis(points - points.mean(axis=1, keepdims=True), 0, -1))
+    extent = np.abs(rows).max(axis=(0, 1))
+    rows += NUDGE * extent * np.random.default_rng(0).uniform(-1.0, 1.0, (points.shape[1], 3, 1))
+    return rows
 
 
 class _Room:
@@ -64,10 +70,15 @@ class _Room:
 
 def _volumes(rows: Array, plan: "_Plan", room: _Room) -> Array:
     """Return the volumes (t, G) for points in rows over frames (N, 3, t), no four of them in a plane."""
+    face = _faces(rows, plan, room)
+    return np.add.reduceat(face * room.height[plan.triangle_of], plan.starts, axis=0).T / 6.0
+
+
+def _faces(rows: Array, plan: "_Plan", room: _Room) -> Array:
+    """Return 1 or -1 (R, t) where a triangle of a group is a face of its hull, seen from outside, else 0."""
     _planes(rows, plan, room)
     side = plan.sides @ _sides(rows, plan, room)
-    face = np.where(np.abs(side) == plan.others[:, None], -np.sign(side), 0.0)
-    return np.add.reduceat(face * room.height[plan.triangle_of], plan.starts, axis=0).T / 6.0
+    return np.where(np.abs(side) == plan.others[:, None], -np.sign(side), 0.0)
 
 
 def _planes(rows: Array, plan: "_Plan", room: _Room) -> None:
@@ -139,6 +150,63 @@ class _Plan:
 @lru_cache(maxsize=16)
 def _plan(count: int, groups: tuple[tuple[int, ...], ...]) -> _Plan:
     return _Plan(count, groups)
+
+
+def hull_faces(points: Array, groups: Sequence[Sequence[int]]) -> list[Integers]:
+    """Return for each group the faces (T, F, 3) of its hull in every frame, as indices of ``points``.
+
+    Corners are in order seen from outside; where a frame has fewer faces than another, the last ones are
+    ``0 0 0``. ``faces_volumes`` of them is ``hull_volumes``, and stays near to it while points move a little.
+
+    >>> corners = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]], float)
+    >>> hull_faces(corners, [range(4)])[0].shape
+    (1, 4, 3)
+    """
+    frames, count = points.shape[:2]
+    chosen = tuple(tuple(sorted(set(map(int, group)))) for group in groups)
+    if count < 4 or not chosen:
+        return [np.zeros((frames, 0, 3), np.int64)] * len(chosen)
+    rows, plan = _rows(points), _plan(count, chosen)
+    step = max(1, _BLOCK // len(plan.base))
+    parts = [rows[..., start : start + step] for start in range(0, frames, step)]
+    signs = np.concatenate(
+        [_faces(np.ascontiguousarray(p), plan, _Room(plan, p.shape[-1])) for p in parts], axis=1
+    )
+    stops = np.append(plan.starts[1:], len(plan.triangle_of))
+    return [
+        _listed(plan.triangles[plan.triangle_of[a:b]], signs[a:b])
+        for a, b in zip(plan.starts, stops, strict=True)
+    ]
+
+
+def _listed(triangles: Integers, signs: Array) -> Integers:
+    """Return the triangles (T, F, 3) whose ``signs`` (R, T) are not 0, turned over where it is negative."""
+    frame, row = np.nonzero(signs.T)
+    count = np.bincount(frame, minlength=signs.shape[1])
+    place = np.arange(len(frame)) - (np.cumsum(count) - count)[frame]
+    out = np.zeros((len(count), int(count.max(initial=0)), 3), np.int64)
+    turned = np.where(signs[row, frame][:, None] < 0.0, triangles[row][:, ::-1], triangles[row])
+    out[frame, place] = turned
+    return out
+
+
+def faces_volumes(points: Array, faces: Sequence[Integers]) -> Array:
+    """Return the volumes (T, G) inside each of ``faces`` (T, F, 3) of ``points`` (T, N, 3).
+
+    ``1/6 sum a . (b x c)`` over the faces.
+
+    >>> corners = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]], float)
+    >>> round(float(faces_volumes(corners, hull_faces(corners, [range(4)]))[0, 0]), 6)
+    0.166667
+    """
+    every = np.concatenate(faces, axis=1)
+    rows = np.ascontiguousarray(np.moveaxis(points - points[:, :1], -1, 0))  # (3, T, N)
+    frames = np.arange(len(every))[:, None]
+    (a, b, c), (d, e, f), (g, h, i) = np.moveaxis(rows[:, frames[..., None], every], -1, 0)
+    parts = a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
+    stops = np.cumsum([part.shape[1] for part in faces])
+    total = np.concatenate([np.zeros((len(every), 1)), np.cumsum(parts, axis=1)], axis=1)
+    return np.asarray(np.diff(total[:, [0, *stops]], axis=1) / 6.0)
 
 
 def hull_size(points: Array) -> float:

@@ -43,6 +43,7 @@ _DISTANCES = (
 _RIGHT, _LEFT = (tuple(f"{side}_{place}" for place in LIMB) for side in ("right", "left"))
 _EFFORT = slice(15, 26)  # the columns of f16 to f26
 _LEGS = ("hip", "knee", "foot", "toe")
+PACE = (*range(6, 18), 24, 25)  # selected features that say how fast, not which poses
 # What the hulls of f27, f28 and f31 to f34 hold.
 VOLUMES = (
     ("head", *MOVING[1:]),
@@ -154,10 +155,24 @@ def features(motion: Motion, *, body: Body | None = None) -> Features:
     zones = _zones(height)
     frames[:, 29] = zones @ [1.0, 0.5, 0.0]
     _fill_space(frames, points, velocity, np.stack([body.left, body.forward]), motion.frame_time)
+    frames[:, 36] = _total_volume(points, motion.frame_time)
     clip = _derive(frames, zones, motion.frame_time, STRIDE).mean(axis=0)
     for array in (frames, zones, clip):
         array.setflags(write=False)
     return Features(start * motion.frame_time + motion.times, frames, zones, clip, motion.frame_time)
+
+
+def pace(points: Array, body: Body, frame_time: float) -> Array:
+    """Return the selected features of Effort and Space (14,): those numbered 6 to 17, 24 and 25.
+
+    ``points`` (T, 19, 3) are landmarks in heights of the body. They are what ``features`` finds, without the
+    hulls of every frame, which take most of its time.
+    """
+    frames = np.zeros((len(points), len(FEATURES)))
+    velocity = _fill_effort(frames, points, frame_time)
+    _fill_space(frames, points, velocity, np.stack([body.left, body.forward]), frame_time)
+    clip = _derive(frames, np.zeros((len(points), 3)), frame_time, STRIDE).mean(axis=0)
+    return clip[[d.number - 1 for d in SELECTED if d.selected in PACE]]
 
 
 def _distances(points: Array) -> Array:
@@ -209,22 +224,33 @@ def _zones(height: Array) -> Array:
 
 
 def _fill_space(frames: Array, points: Array, velocity: Array, ground: Array, frame_time: float) -> None:
-    """Fill in f35 to f37; ``ground`` (2, 3) are the axes of the floor.
+    """Fill in f35 and f36; ``ground`` (2, 3) are the axes of the floor."""
+    frames[:, 34] = _mean_around(_length(velocity @ ground.T), frame_time) * WINDOW
+    (smooth,) = derivatives(points[:, INDEX["pelvis"]], frame_time, orders=(0,))
+    step, length, starts, middle = _hull_windows(len(points), frame_time)
+    path = (smooth @ ground.T)[::step]
+    areas = [hull_size(path[s : s + length]) / (length * step * frame_time) for s in starts]
+    frames[:, 35] = np.interp(np.arange(len(points)), middle, areas)
+
+
+def _total_volume(points: Array, frame_time: float) -> Array:
+    """Return f37 (T,)."""
+    step, length, starts, middle = _hull_windows(len(points), frame_time)
+    thin = points[::step]
+    volumes = [hull_size(thin[s : s + length].reshape(-1, 3)) for s in starts]
+    return np.interp(np.arange(len(points)), middle, volumes)
+
+
+def _hull_windows(frames: int, frame_time: float) -> tuple[int, int, Integers, Array]:
+    """Return every so many frames, how many of these make a window, where windows start, and their middles.
 
     Hulls of a window are of some 30 frames a second, ``STRIDE`` apart, and run in straight lines between.
     """
-    frames[:, 34] = _mean_around(_length(velocity @ ground.T), frame_time) * WINDOW
     step = max(1, round(1.0 / (RATE * frame_time)))
-    thin = points[::step]
-    length = window_frames(len(thin), step * frame_time)
-    starts = window_starts(len(thin), length, step * frame_time)
-    (smooth,) = derivatives(points[:, INDEX["pelvis"]], frame_time, orders=(0,))
-    path = (smooth @ ground.T)[::step]
-    areas = [hull_size(path[s : s + length]) / (length * step * frame_time) for s in starts]
-    volumes = [hull_size(thin[s : s + length].reshape(-1, 3)) for s in starts]
-    middle = (starts + 0.5 * (length - 1)) * step
-    for column, values in ((35, areas), (36, volumes)):
-        frames[:, column] = np.interp(np.arange(len(points)), middle, values)
+    thin = len(range(0, frames, step))
+    length = window_frames(thin, step * frame_time)
+    starts = window_starts(thin, length, step * frame_time)
+    return step, length, starts, (starts + 0.5 * (length - 1)) * step
 
 
 def _starts(frames: int, length: int, frame_time: float, stride: float) -> Integers:

@@ -8,7 +8,17 @@ from .registry import EDITS
 # An edit that is not named follows its kind.
 ORDER = (
     *("trim", "resample", "mirror", "grid", "path_length", "waveshape", "nervous", "timing"),
-    *("posture", "displacement", "tremor", "restore", "tempo", "foot_plant", "repair", "in_place"),
+    *(
+        "posture",
+        "control_points",
+        "displacement",
+        "tremor",
+        "restore",
+        "tempo",
+        "foot_plant",
+        "repair",
+        "in_place",
+    ),
 )
 _LAST_OF_KIND = {"time": "mirror", "rhythm": "tempo", "pose": "posture", "repair": "foot_plant"}
 

@@ -102,6 +102,9 @@ def quadrant(valence: float, arousal: float) -> str | None:
     return "Q3" if valence >= 0.0 else "Q4"
 
 
+ORIGIN = Point(0.0, 0.0)  # where nothing is expressed
+
+
 def clamp(valence: float, arousal: float) -> Point:
     """Return the point, drawn straight towards the centre until it is on the disc.
 

@@ -18,7 +18,7 @@ from .body import SIDES, Body
 from .contacts import foot_points
 from .fk import world
 from .poses import neutral_world
-from .two_bone import two_bone
+from .two_bone import mean_hinge, softened, two_bone
 
 UNTOUCHED = 0.003  # leg lengths: a swinging foot nearer than this to its goal is moved only in part
 
@@ -157,9 +157,7 @@ def _reachable(before: Placed, after: Placed, goal: Goal, planted: Mask, body: B
     soft = np.maximum(0.025 * clear_of(planted, after.motion.frame_time, 0.1), 1e-9)
     line = goal.ankle - after.positions[:, hip]
     stretch = np.linalg.norm(line, axis=1) / length
-    knee_point = np.maximum(limit - soft, np.minimum(own, limit - 1e-9))
-    over = np.maximum(stretch - knee_point, 0.0) / (limit - knee_point)
-    drawn = np.where(over > 0, knee_point + (limit - knee_point) * -np.expm1(-over), stretch)
+    drawn = softened(stretch, np.maximum(limit - soft, np.minimum(own, limit - 1e-9)), limit)
     return after.positions[:, hip] + line * np.where(planted, 1.0, drawn / stretch)[:, None]
 
 
@@ -206,11 +204,6 @@ def _hinge(before: Placed, body: Body, foot: int) -> Array:
     hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
     thigh = before.positions[:, hip] - before.positions[:, knee]
     shank = before.positions[:, ankle] - before.positions[:, knee]
-    normal: Array = np.cross(thigh, shank)
-    lengths = np.linalg.norm(thigh, axis=1) * np.linalg.norm(shank, axis=1)
-    size = np.linalg.norm(normal, axis=1) / np.maximum(lengths, 1e-300)
-    clear = np.clip((size - 0.25) / 0.25, 0.0, 1.0)
-    normal = quaternion.rotate(quaternion.conjugate(before.rotations[:, hip]), normal * clear[:, None])
     standing = quaternion.conjugate(neutral_world(before.motion, body)[0][hip])
-    mean = normal.mean(axis=0) + 0.01 * body.leg_length**2 * quaternion.rotate(standing, -body.left)
-    return np.asarray(mean / np.linalg.norm(mean))
+    usual = 0.01 * body.leg_length**2 * quaternion.rotate(standing, -body.left)
+    return mean_hinge(thigh, shank, before.rotations[:, hip], usual)

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Self
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -185,8 +186,18 @@ def segment_joints(body: Body) -> dict[str, tuple[int, ...]]:
 
 def neutral_world(motion: Motion, body: Body) -> tuple[Array, Array]:
     """Return the world rotations (J, 4) and positions (J, 3) of the neutral stance of this skeleton."""
-    rotations, positions = fk(body.neutral[None], motion.translations[:1], motion.skeleton.parents)
-    return rotations[0], positions[0]
+    key = motion.translations[0].tobytes()
+    known = _STANCES.get(body)
+    if known is None or known[0] != key:
+        rotations, positions = fk(body.neutral[None], motion.translations[:1], motion.skeleton.parents)
+        for shared in (rotations, positions):
+            shared.setflags(write=False)
+        known = _STANCES[body] = key, rotations[0], positions[0]
+    return known[1:]
+
+
+# The stance that was asked for last, as it is asked for again and again while one motion is worked on.
+_STANCES: WeakKeyDictionary[Body, tuple[bytes, Array, Array]] = WeakKeyDictionary()
 
 
 def anatomical_axes(body: Body) -> Array:

@@ -54,6 +54,27 @@ def nudge(root: Array, middle: Array, tip: Array, target: Array) -> tuple[Array,
     return aim, quaternion.multiply(aim, bend)
 
 
+def mean_hinge(to_root: Array, to_tip: Array, turned: Array, usual: Array) -> Array:
+    """Return the axis (3,) about which a limb's middle joint bends, in the axes of its upper bone.
+
+    It comes from the frames in which the joint is clearly bent: ``to_root`` and ``to_tip`` (T, 3) are its
+    bones in world axes, ``turned`` (T, 4) the world rotations of the upper one. ``usual`` (3,), in that
+    bone's axes and as long as it weighs, is the axis of a joint that never bends.
+    """
+    normal: Array = np.cross(to_root, to_tip)
+    lengths = _length(to_root) * _length(to_tip)
+    clear = np.clip((_length(normal) / np.maximum(lengths, 1e-300) - 0.25) / 0.25, 0.0, 1.0)
+    own = quaternion.rotate(quaternion.conjugate(turned), normal * clear[:, None])
+    mean = own.mean(axis=0) + usual
+    return np.asarray(mean / np.linalg.norm(mean))
+
+
+def softened(stretch: Array, start: Array, limit: Array) -> Array:
+    """Return how far (T,) a limb is stretched, which from ``start`` on tends to ``limit`` and not beyond."""
+    over = np.maximum(stretch - start, 0.0) / (limit - start)
+    return np.where(over > 0.0, start - (limit - start) * np.expm1(-over), stretch)
+
+
 def _bend(to_root: Array, to_tip: Array, hinge: Array, *, trusting: bool) -> tuple[Array, Array]:
     """Return the inner angle (T,) of the joint, beyond pi when over-stretched, and its axis (T, 3).
 
