@@ -28,6 +28,10 @@ from .selection import select
 VARIANCE = 0.95  # that the main components keep (Aristidou et al. 2017)
 SHRINKAGE, SHRINKAGE_ALONE = 0.3, 0.5
 COMMON = 3  # labels of a performer from which on what they share is told from what they are
+# Who compares two clips expects a change: the logarithm of how much rarer none is. Without it, small changes
+# and
+# those of other bodies are read as none.
+UNCHANGED = -4.0
 LEAST_SCALE = 0.1  # of numbers of manner: what varies less is not looked at more closely
 LEAST = 5  # selected features: where fewer pass, those that the paper selected are taken
 PRINTED = tuple(d.number - 1 for d in sorted(DERIVED, key=lambda d: d.selected) if d.selected)
@@ -111,7 +115,11 @@ def _manners(values: Array, takes: Sequence[Take], *, centred: bool) -> Manners:
     found = Manners(middle, scale, Discriminant((), np.zeros((0, 0)), np.zeros(0)))
     labels = [take.label for take in takes]
     shrinkage = SHRINKAGE_ALONE if centred else SHRINKAGE
-    return replace(found, planes=discriminate(found.scaled(values), labels, shrinkage=shrinkage))
+    planes = discriminate(found.scaled(values), labels, shrinkage=shrinkage)
+    if not centred:
+        rarer = np.array([UNCHANGED if name == NEUTRAL else 0.0 for name in planes.names])
+        planes = replace(planes, offsets=planes.offsets + rarer)
+    return replace(found, planes=planes)
 
 
 def common_changes(takes: Sequence[Take]) -> dict[str, Array]:
