@@ -54,7 +54,7 @@ def learn(
     """Learn from labelled clips how emotions look, and say how well it reads contents it has not seen.
 
     Every content needs a neutral take of the same performer: what is learned is what differs from it. The
-    model is used with mien analyze --model and mien edit --model.
+    model is used with mien analyze --model.
 
     mien learn emotion takes/ --labels labels.csv -o mine.json --source "our own takes"
     """

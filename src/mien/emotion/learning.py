@@ -31,7 +31,7 @@ COMMON = 3  # labels of a performer from which on what they share is told from w
 # Who compares two clips expects a change: the logarithm of how much rarer none is. Without it, small changes
 # and
 # those of other bodies are read as none.
-UNCHANGED = -4.0
+UNCHANGED, HALFWAY = -4.0, 0.5
 LEAST_SCALE = 0.1  # of numbers of manner: what varies less is not looked at more closely
 LEAST = 5  # selected features: where fewer pass, those that the paper selected are taken
 PRINTED = tuple(d.number - 1 for d in sorted(DERIVED, key=lambda d: d.selected) if d.selected)
@@ -117,8 +117,10 @@ def _manners(values: Array, takes: Sequence[Take], *, centred: bool) -> Manners:
     shrinkage = SHRINKAGE_ALONE if centred else SHRINKAGE
     planes = discriminate(found.scaled(values), labels, shrinkage=shrinkage)
     if not centred:
-        rarer = np.array([UNCHANGED if name == NEUTRAL else 0.0 for name in planes.names])
-        planes = replace(planes, offsets=planes.offsets + rarer)
+        other = np.array([name != NEUTRAL for name in planes.names])
+        # No change at all stays neutral, however near to it a label is.
+        rarer = max(UNCHANGED, HALFWAY * float(planes.offsets[other].max()))
+        planes = replace(planes, offsets=planes.offsets + np.where(other, 0.0, rarer))
     return replace(found, planes=planes)
 
 
