@@ -411,3 +411,13 @@ def test_legs_without_a_length_are_refused() -> None:
     flat = replace(motion.skeleton, offsets=np.zeros((len(motion.skeleton), 3)))
     with pytest.raises(BodyError, match="no length"):
         Body.of(motion.with_(skeleton=flat, translations=np.zeros_like(motion.translations)))
+
+
+def test_a_role_that_a_body_lacks_has_no_joints() -> None:
+    """Presets may name a part of the spine; a trunk of one joint has none, and that is no error."""
+    body = Body.of(walk(seconds=0.5).motion)
+    lacking = replace(body, roles={role: j for role, j in body.roles.items() if role != "spine"})
+    assert lacking.joints(("spine",)) == []
+    assert lacking.joints(("spine", "head")) == body.joints(("head",))
+    with pytest.raises(BodyError, match="spoon"):
+        lacking.joints(("spoon",))

@@ -79,7 +79,10 @@ class Body:
         return known[key]
 
     def joints(self, parts: tuple[str, ...]) -> list[int]:
-        """Return the joints of named body parts or roles; empty means every joint."""
+        """Return the joints of named body parts or roles; empty means every joint.
+
+        A role that this body lacks has none. Raises ``BodyError`` for a name that is no part or role.
+        """
         if not parts:
             return list(range(len(self.parts_of)))
         wanted: set[str] = set()
@@ -89,8 +92,8 @@ class Body:
                 wanted.update(PARTS[part])
             elif part in self.roles:
                 chosen.add(self.roles[part])
-            else:
-                raise BodyError(unknown("body part or role", part, [*PARTS, *self.roles]))
+            elif part not in ROLES:
+                raise BodyError(unknown("body part or role", part, [*PARTS, *ROLES]))
         chosen.update(j for j, name in enumerate(self.parts_of) if name in wanted)
         return sorted(chosen)
 
