@@ -226,6 +226,25 @@ def presets() -> "Image":
     return beside(*(render.compare(rows, against=calm, poses=3, width=1000) for rows in made))
 
 
+def disc() -> "Image":
+    """A walk and a wave at eight points of the disc, and where those are, over what they were made from."""
+    rim = {
+        "valence +": (0.7, 0.0),
+        "both +": (0.5, 0.5),
+        "arousal +": (0.0, 0.7),
+        "unpleasant, intense": (-0.5, 0.5),
+        "valence -": (-0.7, 0.0),
+        "both -": (-0.5, -0.5),
+        "arousal -": (0.0, -0.7),
+        "pleasant, calm": (0.5, -0.5),
+    }
+    sheets = []
+    for calm in (walk(), samples.wave().motion):
+        rows = {name: mien.toward(calm, to=place) for name, place in rim.items()}
+        sheets.append(render.compare(rows, against=calm, poses=4, width=1000))
+    return beside(*sheets)
+
+
 def blend() -> "Image":
     """Two walks, what lies between and beyond, and the posture of one on the movement of the other."""
     clips = [samples.walk(seconds=3.0).motion, samples.tired_walk(seconds=4.0).motion]
@@ -264,6 +283,7 @@ PICTURES: Mapping[str, Callable[[], "Image"]] = {
     **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, impacts, grid, foot_plant)},
     **{f"methods/{f.__name__}": f for f in (repair, restore, trim, resample, mirror, in_place)},
     "presets": presets,
+    "disc": disc,
     "grid": square,
     "blend": blend,
 }
