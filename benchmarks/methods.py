@@ -83,6 +83,15 @@ def nothing(motion: mien.Motion, word: str) -> mien.Motion:
     return motion
 
 
+# Styles whose words stand on the disc.
+PLACED = {"active": "excited", **{word: word for word in ("angry", "happy", "sad", "tired")}}
+
+
+def moved(motion: mien.Motion, word: str, *, method: str) -> mien.Motion:
+    """Return the motion moved to a word of the disc."""
+    return mien.toward(motion, to=word, method=method)
+
+
 METHODS: dict[str, Method] = {
     "s0": presets("s0/"),
     "default": presets(),
@@ -90,6 +99,8 @@ METHODS: dict[str, Method] = {
     "crude": Method({style: style for style in STYLES}, learn=crude.learn),
     "crude-bare": Method({style: style for style in STYLES}, learn=partial(crude.learn, keep_safe=False)),
     "learned": Method({style: style for style in STYLES}, learn=learned.learn),
+    "rules": Method(PLACED, partial(moved, method="rules")),
+    "joint": Method(PLACED, partial(moved, method="joint")),
     "learned-stronger": Method({style: style for style in STYLES}, learn=partial(learned.learn, amount=1.3)),
     "learned-bare": Method({style: style for style in STYLES}, learn=partial(learned.learn, safe=False)),
     "learned-unfitted": Method(

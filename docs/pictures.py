@@ -227,7 +227,7 @@ def presets() -> "Image":
 
 
 def disc() -> "Image":
-    """A walk and a wave at eight points of the disc, and where those are, over what they were made from."""
+    """Eight points of the disc: a walk and a wave moved there, over what they were made from."""
     rim = {
         "valence +": (0.7, 0.0),
         "both +": (0.5, 0.5),
