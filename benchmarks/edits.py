@@ -4,8 +4,8 @@ Run: python benchmarks/edits.py [--frames 10000]
 
 Prints milliseconds (the best of several runs), the ratio to the peer measured in the same run, and the
 peak of memory as a multiple of the clip's own arrays. The peer of forward kinematics is the same chain
-through SciPy's ``Rotation``; whole presets have no peer, their budget is 0.5 s and six times the arrays; what makes them safe
-stands beside it.
+through SciPy's ``Rotation``; whole presets have no peer, their budget is 0.5 s and six times the arrays.
+Beside it stands the time with what makes them safe.
 """
 
 import argparse
