@@ -21,7 +21,7 @@ import mien
 from mien.analysis.effort import effort
 from mien.analysis.hulls import hull_volumes
 from mien.analysis.laban import VOLUMES, features
-from mien.batch import Reading, analyse_files
+from mien.batch import Subject, analyse_files
 from mien.kinematics.body import Body
 from mien.kinematics.landmarks import INDEX, landmarks
 from mien.samples import knock, turn, walk, wave
@@ -68,7 +68,7 @@ def hulls():
 
 def many(paths):
     start, before = time.perf_counter(), processor()
-    done = list(analyse_files([Reading(path) for path in paths], workers=2))
+    done = list(analyse_files([Subject(path) for path in paths], workers=2))
     took, worked = time.perf_counter() - start, processor() - before
     frames = sum(d.frames for d in done)
     failed = sum(bool(d.error) for d in done)
