@@ -7,7 +7,7 @@ from functools import partial
 from acted import Take
 
 import mien
-from mien.analysis.manner import Change, Manner, difference, mean_change
+from mien.analysis.manner import Change, change_between, mean_change
 from mien.emotion.example import as_recipe, fitted
 
 
@@ -17,10 +17,7 @@ def learn(
     """Return what edits a motion into a style, from (acted, neutral) takes."""
     found: dict[str, list[Change]] = defaultdict(list)
     for acted, neutral in pairs:
-        rest = neutral.load()
-        body = mien.Body.of(rest)
-        manners = Manner.of(rest, body=body), Manner.of(acted.load(), body=body)
-        found[acted.style].append(difference(*manners))
+        found[acted.style].append(change_between(neutral.load(), acted.load()))
     changes = {style: mean_change(some).symmetric() * amount for style, some in found.items()}
     return partial(_edit, changes=changes, safe=safe, fit=fit)
 

@@ -1,12 +1,14 @@
 """To a place on the circumplex, and in the manner of an example: strength 0 is the clip, further is more."""
 
+from dataclasses import replace
+
 import pytest
 
 import mien
 from mien import samples
 from mien.analysis.manner import Manner, difference
 from mien.emotion.circumplex import point
-from mien.emotion.toward import aim, as_like
+from mien.emotion.toward import Like, aim
 from mien.errors import RecipeError
 from mien.motion import Motion
 from mien.recipe import Step
@@ -91,7 +93,7 @@ def test_an_example_is_followed_whoever_gives_it(walk: Motion) -> None:
 
 def test_without_a_neutral_clip_the_example_is_compared_with_the_clip_itself(walk: Motion) -> None:
     slumped = mien.apply(walk, [Step("posture", {"trunk": 15.0})])
-    recipe = as_like(slumped).recipe(walk)
+    recipe = Like(slumped).recipe(walk)
     made = mien.edit(walk, recipe, safe=False)
     left = difference(Manner.of(made), Manner.of(slumped))
     assert abs(left.pose.turns["trunk"][0]) < 2.0
@@ -100,3 +102,24 @@ def test_without_a_neutral_clip_the_example_is_compared_with_the_clip_itself(wal
 def test_its_history_replays(walk: Motion) -> None:
     made = mien.toward(walk, by=(-0.4, -0.3))
     assert same(mien.apply(walk, made.history), made)
+
+
+def test_the_unit_of_an_example_does_not_matter(walk: Motion) -> None:
+    """Same joints, other unit: nothing differs but what was done, and so nothing else is done."""
+    bent = mien.apply(walk, [Step("posture", {"trunk": 15.0})])
+    skeleton = replace(bent.skeleton, offsets=0.0254 * bent.skeleton.offsets)
+    inches = Motion(skeleton, bent.rotations, 0.0254 * bent.translations, bent.frame_time)
+    one, other = (Like(example, walk).recipe(walk) for example in (bent, inches))
+    for first, second in zip(one.steps, other.steps, strict=True):
+        assert first.edit == second.edit
+        for key in ("hips_height", "hips_forward", "arms"):
+            ours, theirs = (float(s.parameters.get(key, 0.0)) for s in (first, second))
+            assert ours == pytest.approx(theirs, abs=0.01)
+
+
+def test_a_bow_on_the_clips_own_skeleton_is_seen_without_a_neutral_clip(walk: Motion) -> None:
+    bowed = mien.apply(walk, [Step("posture", {"trunk": 25.0, "head": 20.0})])
+    alone = Motion(bowed.skeleton, bowed.rotations, bowed.translations, bowed.frame_time)
+    made = mien.edit(walk, Like(alone).recipe(walk), safe=False)
+    change = difference(Manner.of(walk), Manner.of(made))
+    assert change.pose.turns["trunk"][0] == pytest.approx(25.0, abs=5.0)

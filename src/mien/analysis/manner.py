@@ -122,6 +122,16 @@ class Change:
         return replace(self, pose=Pose(turns), swing=swing)
 
 
+def change_between(rest: Motion, motion: Motion) -> Change:
+    """Return what differs in manner between a neutral clip and another, best of one person and one action.
+
+    Raises ``BodyError`` where no body is found.
+    """
+    body = Body.of(rest)
+    other = Manner.of(motion, body=body_beside(body, rest, motion))
+    return difference(Manner.of(rest, body=body), other)
+
+
 def body_beside(body: Body, rest: Motion, motion: Motion) -> Body:
     """Return the body to measure ``motion`` with beside ``rest``, a neutral clip with ``body``.
 

@@ -63,12 +63,10 @@ def _aim(asked: Asked, point: bool) -> "Aim":
 
 
 def _example(example: Path, neutral: Path | None) -> "Like":
-    from dataclasses import replace
-
-    from ..emotion.toward import as_like
+    from ..emotion.toward import Like
 
     rest = a.opened(neutral, None, False, None) if neutral else None
-    return replace(as_like(a.opened(example, None, False, None), neutral=rest), name=f"like {example.stem}")
+    return Like(a.opened(example, None, False, None), rest, f"like {example.stem}")
 
 
 def _numbers(text: str, flag: str) -> tuple[float, float]:

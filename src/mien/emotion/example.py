@@ -22,20 +22,6 @@ LEGS = ("hip", "knee", "ankle", "toe")
 OUT = (("left", 1.0), ("right", -1.0))
 
 
-def from_example(example: Motion, neutral: Motion, *, name: str = "example") -> Recipe:
-    """Return the recipe for what ``example`` has that ``neutral`` has not.
-
-    Best are two clips of one action by one person. Raises ``BodyError`` where no body is found.
-
-    >>> sad = from_example(mien.load("sad_wave.bvh"), mien.load("wave.bvh"))
-    >>> mien.edit(mien.load("my_walk.bvh"), sad, strength=0.8)
-    """
-    body = Body.of(neutral)
-    own = body if example.skeleton.names == neutral.skeleton.names else None
-    change = difference(Manner.of(neutral, body=body), Manner.of(example, body=own))
-    return as_recipe(change, name=name)
-
-
 def fitted(motion: Motion, change: Change, *, name: str) -> Recipe:
     """Return the recipe that makes just such a change on one motion.
 

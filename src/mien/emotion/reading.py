@@ -4,9 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..analysis.manner import Manner, body_beside, difference
+from ..analysis.manner import Manner, change_between, difference
 from ..analysis.manner_features import FEATURES, manner_features
-from ..kinematics.body import Body
 from ..motion import Motion, require_motion
 from ..typing import Array
 from .circumplex import QUADRANTS, Point, nearest, quadrant
@@ -94,9 +93,7 @@ def read(motion: Motion, *, neutral: Motion | None = None, model: EmotionModel |
         numbers = manner_features(difference(model.rest, Manner.of(motion)))
         manners = model.alone
     else:
-        body = Body.of(before)
-        own = body_beside(body, before, motion)
-        numbers = manner_features(difference(Manner.of(before, body=body), Manner.of(motion, body=own)))
+        numbers = manner_features(change_between(before, motion))
         manners = model.change
     labels = manners.probabilities(numbers)
     first = next(iter(labels))

@@ -11,9 +11,8 @@ from typing import Literal, cast
 
 import numpy as np
 
-from ..analysis.manner import Manner, difference
+from ..analysis.manner import change_between
 from ..errors import RecipeError, unknown
-from ..kinematics.body import Body
 from ..motion import Motion, require_motion
 from ..recipe import Recipe
 from .circumplex import Point, clamp, point
@@ -66,14 +65,14 @@ class Aim:
 class Like:
     """In the manner of an example: what ``example`` has that ``neutral``, or the clip itself, has not."""
 
-    example: Manner
-    neutral: Manner | None = None
+    example: Motion
+    neutral: Motion | None = None
     name: str = "example"
 
     def recipe(self, motion: Motion) -> Recipe:
         """Return the recipe that makes a motion differ from itself as the example from its neutral clip."""
-        rest = self.neutral or Manner.of(motion)
-        return fitted(motion, difference(rest, self.example), name=self.name)
+        rest = self.neutral if self.neutral is not None else require_motion(motion)
+        return fitted(motion, change_between(rest, require_motion(self.example)), name=self.name)
 
 
 def aim(
@@ -136,17 +135,7 @@ def like(
     (Amaya, Bruderlin & Calvert 1996); without ``neutral`` the motion itself is that. Raises ``BodyError``
     where no body is found.
     """
-    return edit(motion, as_like(example, neutral=neutral).recipe(motion), strength=strength)
-
-
-def as_like(example: Motion, *, neutral: Motion | None = None) -> Like:
-    """Return what an example says, compared with its neutral clip."""
-    if neutral is None:
-        return Like(Manner.of(example), None, example.name or "example")
-    body = Body.of(neutral)
-    own = body if example.skeleton.names == neutral.skeleton.names else None
-    manners = Manner.of(example, body=own), Manner.of(neutral, body=body)
-    return Like(*manners, example.name or "example")
+    return edit(motion, Like(example, neutral).recipe(motion), strength=strength)
 
 
 def _place(where: str | Point | Sequence[float]) -> Point:
