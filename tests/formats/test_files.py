@@ -88,3 +88,19 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
     files.write(tmp_path / "link", b"new")
     assert (tmp_path / "link").is_symlink()
     assert (tmp_path / "real").read_bytes() == b"new"
+
+
+def test_an_interrupt_while_the_file_is_made_leaves_nothing(tmp_path: Path, monkeypatch) -> None:
+    made = Path.open
+
+    def interrupted(path: Path, mode: str = "r") -> None:
+        made(path, mode).close()
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "open", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        files.write(tmp_path / "new", b"x")
+    assert not list(tmp_path.iterdir())
+    monkeypatch.undo()
+    files.write(tmp_path / ("n" * 250), b"x")
+    assert [path.stat().st_size for path in tmp_path.iterdir()] == [1]

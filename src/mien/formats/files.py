@@ -1,7 +1,6 @@
 """Bytes from and to disk: errors that say what to do, and files that appear whole or not at all."""
 
-import os
-import tempfile
+import secrets
 from pathlib import Path
 
 from ..errors import FormatError
@@ -51,24 +50,15 @@ def exists_already(path: Path, *, more: int = 0) -> FormatError:
 def write(path: Path, data: bytes) -> None:
     """Write ``data`` beside ``path`` and move it into place, so that no half-written file is ever seen."""
     target = path.resolve()  # a link stays a link: what it points to is replaced
-    temporary = None
+    # Named before it is there: an interrupt at any moment still finds it to take away.
+    temporary = target.with_name(f".mien-{secrets.token_hex(8)}")
     try:
-        with tempfile.NamedTemporaryFile(dir=target.parent, prefix=f".{target.name}.", delete=False) as file:
-            temporary = Path(file.name)
+        with temporary.open("xb") as file:
             file.write(data)
-        temporary.chmod(_mode(target))
+        if target.exists():
+            temporary.chmod(target.stat().st_mode & 0o777)
         temporary.replace(target)
     except OSError as error:
         raise FormatError(f"{path}: cannot be written ({error.strerror or error})") from None
     finally:
-        if temporary is not None:
-            temporary.unlink(missing_ok=True)
-
-
-def _mode(path: Path) -> int:
-    """Return the permissions to give: those of the file replaced, else what a plain ``open`` gives."""
-    if path.exists():
-        return path.stat().st_mode & 0o777
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask
+        temporary.unlink(missing_ok=True)
