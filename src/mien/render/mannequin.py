@@ -56,13 +56,13 @@ class Soles:
         How high the toe joint (or, without one, the ankle) is above the floor differs from skeleton
         to skeleton; the lowest tenth of the frames tells, within what a foot can be.
         """
-        stance, depth, length = _stance(motion, body)[1], [], []
+        standing, depth, length = stance(motion, body)[1], [], []
         for side in SIDES:
             ankle = body.roles[f"{side}_ankle"]
             toe = body.roles.get(f"{side}_toe")
             joint, least, most = (ankle, 0.06, 0.13) if toe is None else (toe, 0.0, 0.05)
             low = (np.quantile(positions[:, joint] @ body.up, 0.1) - body.floor) / body.leg_length
-            bone = (stance[joint] - stance[ankle]) / body.leg_length
+            bone = (standing[joint] - standing[ankle]) / body.leg_length
             drop = -float(bone @ body.up)
             depth.append(float(np.clip(drop + np.clip(low, least, most), 0.04, 0.16)))
             ahead = float(np.linalg.norm(bone + drop * body.up))
@@ -70,7 +70,7 @@ class Soles:
         return cls((depth[0], depth[1]), (length[0], length[1]))
 
 
-def _stance(motion: Motion, body: Body) -> tuple[Array, Array]:
+def stance(motion: Motion, body: Body) -> tuple[Array, Array]:
     """Return world rotations (J, 4) and positions (J, 3) of the neutral stance."""
     rest = np.median(motion.translations, axis=0)
     rotations, positions = fk(body.neutral[None], rest[None], motion.skeleton.parents)
@@ -99,8 +99,8 @@ class _Builder:
     def __init__(self, motion: Motion, body: Body, rotations: Array, positions: Array, soles: Soles) -> None:
         self.body, self.positions, self.roles, self.soles = body, positions, body.roles, soles
         self.unit = body.leg_length
-        stance, self.stance = _stance(motion, body)
-        self.turns = quaternion.multiply(rotations, quaternion.conjugate(stance))
+        turned, self.stance = stance(motion, body)
+        self.turns = quaternion.multiply(rotations, quaternion.conjugate(turned))
         self.up, self.forward, self.left = body.up, body.forward, body.left
         self.cones: list[tuple[Array, Array, float, float, int]] = []
         self.ellipsoids: list[tuple[Array, Array, int]] = []

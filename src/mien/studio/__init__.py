@@ -1,0 +1,1 @@
+"""The studio: a local page where a clip's mood is changed and seen at once, and the server behind it."""

@@ -1,0 +1,325 @@
+"""What the page and the server say to each other, as plain data; the page's TypeScript types are made from it.
+
+``scripts/messages.py`` writes ``frontend/src/messages.ts``, and a test sees that both agree. Lengths are in
+the clip's own unit, times in seconds, quaternions ``xyzw``. Arrays do not travel as JSON: ``Frames`` is the
+head of a binary answer, which says where each of them starts (``wire``).
+"""
+
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+Value = bool | float | str | list[str] | list[list[float]] | None  # of a parameter; pairs are a keyed curve
+Strength = float | list[list[float]]  # a number, or (seconds, value)
+LayerKind = Literal["emotion", "edit", "place"]
+ValueKind = Literal["number", "whole", "flag", "choice", "text", "list"]
+ExportKind = Literal["bvh", "recipe", "png", "gif", "mp4", "html", "project"]
+
+
+@dataclass(frozen=True)
+class Layer:
+    """One layer of the stack.
+
+    An ``emotion`` is a preset called ``name``, an ``edit`` has its ``parameters``, a ``place`` is a point of
+    the disc: ``name`` is the method, ``parameters`` are ``valence`` and ``arousal``. ``on`` False leaves it
+    out; where any layer is ``solo`` only those are done.
+    """
+
+    id: str
+    kind: LayerKind
+    name: str
+    parameters: dict[str, Value] = field(default_factory=dict)
+    strength: Strength = 1.0
+    parts: list[str] = field(default_factory=list)
+    span: list[float] | None = None
+    ease: float = 0.25
+    on: bool = True
+    solo: bool = False
+
+
+@dataclass(frozen=True)
+class Stack:
+    """All layers from first to last, how strong the whole is, and what is done at the end."""
+
+    layers: list[Layer] = field(default_factory=list)
+    strength: Strength = 1.0
+    foot_plant: bool = True
+    safe: bool = True
+
+
+@dataclass(frozen=True)
+class EditRequest:
+    """Do a stack to a clip. ``live`` is a slider on its way: quick, not made safe.
+
+    ``client`` and ``turn`` let newer requests of one page overtake older ones, which are answered with 409.
+    """
+
+    clip: str
+    stack: Stack
+    live: bool = False
+    client: str = ""
+    turn: int = 0
+
+
+@dataclass(frozen=True)
+class ExportRequest:
+    """Give what a stack makes of a clip as a file. ``options`` are those of the kind, such as ``width``."""
+
+    clip: str
+    stack: Stack
+    kind: ExportKind
+    options: dict[str, Value] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class PlaceInArrays:
+    """Where an array of a binary answer is: bytes from the start of the arrays, its type and its shape."""
+
+    name: str
+    type: Literal["float32", "uint8"]
+    start: int
+    shape: list[int]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a mannequin needs of a body: roles, the neutral stance in world axes, and measures.
+
+    ``stance_rotations`` (J, 4) and ``stance_positions`` (J, 3); ``sole_depth`` and ``sole_length`` of the left
+    and right foot in leg lengths.
+    """
+
+    roles: dict[str, int]
+    spine: list[int]
+    leg_length: float
+    height: float
+    stance_rotations: list[list[float]]
+    stance_positions: list[list[float]]
+    sole_depth: list[float]
+    sole_length: list[float]
+
+
+@dataclass(frozen=True)
+class Frames:
+    """A motion for the page, the head of a binary answer.
+
+    Arrays: ``rotations`` (T, J, 4) from child to parent, ``translations`` (T, M, 3) of the ``moving`` joints,
+    ``offsets`` (J, 3) of all, ``contacts`` (T, 2) left and right foot, 1 while it stands. ``shape`` is None
+    where no body is found: then sticks are drawn between the ``drawn`` joints. ``steps`` is what was done,
+    ``notes`` what has to be said about it, ``seconds`` what it took.
+    """
+
+    clip: str
+    name: str
+    frames: int
+    frame_time: float
+    joints: list[str]
+    parents: list[int]
+    moving: list[int]
+    drawn: list[int]
+    metres: float
+    up: list[float]
+    forward: list[float]
+    left: list[float]
+    floor: float
+    shape: Shape | None
+    arrays: list[PlaceInArrays] = field(default_factory=list)
+    steps: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class ClipInfo:
+    """A clip that is open. ``id`` is the SHA-256 of its file; ``problem`` says why it can only be looked at."""
+
+    id: str
+    name: str
+    frames: int
+    joints: int
+    fps: float
+    duration: float
+    problem: str = ""
+
+
+@dataclass(frozen=True)
+class ParameterInfo:
+    """One parameter of an edit, for a slider, a switch or a menu."""
+
+    name: str
+    kind: ValueKind
+    doc: str
+    default: Value
+    low: float | None
+    high: float | None
+    neutral: float | None
+    unit: str
+    choices: list[str]
+    optional: bool
+
+
+@dataclass(frozen=True)
+class EditInfo:
+    """One edit: its kind (pose, rhythm, time, repair), what it does, and its parameters."""
+
+    name: str
+    kind: str
+    summary: str
+    parameters: list[ParameterInfo]
+
+
+@dataclass(frozen=True)
+class PresetInfo:
+    """One emotion preset: what it does and how well that is known."""
+
+    name: str
+    description: str
+    evidence: str
+
+
+@dataclass(frozen=True)
+class Word:
+    """An emotion word and its place on the disc."""
+
+    name: str
+    valence: float
+    arousal: float
+
+
+@dataclass(frozen=True)
+class Hello:
+    """What the page needs to begin."""
+
+    version: str
+    samples: list[str]
+    presets: list[PresetInfo]
+    edits: list[EditInfo]
+    words: list[Word]
+    parts: list[str]
+    roles: list[str]
+    clips: list[ClipInfo]
+    largest_upload: int
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point of the disc, and the word nearest to it."""
+
+    valence: float
+    arousal: float
+    word: str
+
+
+@dataclass(frozen=True)
+class Why:
+    """One reason for a reading."""
+
+    what: str
+    how_much: str
+    pull: float
+
+
+@dataclass(frozen=True)
+class ReadingInfo:
+    """What a motion expresses: its place, the likeliest labels with their probabilities, the reasons."""
+
+    place: Place
+    labels: list[tuple[str, float]]
+    why: list[Why]
+    against: str
+
+
+@dataclass(frozen=True)
+class Readings:
+    """The clip by itself, what was asked for, and what the edit reached."""
+
+    read: ReadingInfo
+    asked: Place | None
+    reached: ReadingInfo | None
+
+
+@dataclass(frozen=True)
+class MarkInfo:
+    """A stretch of time in which a check fails, and the worst moment in it."""
+
+    start: float
+    end: float
+    worst: float
+    parts: list[str]
+
+
+@dataclass(frozen=True)
+class CheckInfo:
+    """One check of the edited motion: its value, the source's, and what is allowed. None: not to be had."""
+
+    name: str
+    label: str
+    unit: str
+    digits: int
+    value: float | None
+    source: float | None
+    allowed: float | None
+    passed: bool
+    marks: list[MarkInfo]
+
+
+@dataclass(frozen=True)
+class Checks:
+    """All checks; ``times`` of the edited motion that failing spans refer to."""
+
+    passed: bool
+    checks: list[CheckInfo]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One curve over time, before and after; ``times`` differ where an edit changes how long it takes."""
+
+    name: str
+    unit: str
+    before_times: list[float]
+    before: list[float]
+    after_times: list[float]
+    after: list[float]
+
+
+@dataclass(frozen=True)
+class CurvesRequest:
+    """Ask for curves by name: ``hips height``, ``hand speed``, ``valence``, ``arousal`` or ``joint:NAME``."""
+
+    clip: str
+    stack: Stack
+    names: list[str]
+
+
+@dataclass(frozen=True)
+class Copied:
+    """The same edit for the command line and for Python."""
+
+    command: str
+    python: str
+
+
+@dataclass(frozen=True)
+class ProjectClip:
+    """A clip of a project: by the hash of its file."""
+
+    id: str
+    name: str
+    stack: Stack
+
+
+@dataclass(frozen=True)
+class Project:
+    """What a project file holds: clips by hash with their stacks, which one is shown, and the view."""
+
+    clips: list[ProjectClip]
+    current: str
+    view: dict[str, Any] = field(default_factory=dict)
+    mien_project: int = 1
+
+
+@dataclass(frozen=True)
+class Failure:
+    """What went wrong, in one sentence."""
+
+    error: str
