@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from .styles.grid import Grid as Grid
     from .styles.grid import grid as grid
     from .styles.multitarget import blend as blend
+    from .studio.widget import show as show
 
     __version__: str
 
@@ -75,6 +76,7 @@ _HOME = {
     "render": ".",
     "samples": ".",
     "save": ".formats",
+    "show": ".studio.widget",
     "toward": ".emotion.toward",
     "like": ".emotion.toward",
     "write_recipe": ".emotion.files",

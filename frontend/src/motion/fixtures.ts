@@ -2,7 +2,7 @@
 import { decode, unpack, type Clip } from "../wire";
 import { fromBase64 } from "./base64";
 
-export const NAMES = ["walk", "wave", "jump", "turn", "pendulum"] as const;
+export const NAMES = ["walk", "wave", "jump", "turn", "tail"] as const;
 
 const FILES = import.meta.glob<string>("./fixtures/*.bin", { query: "?url&inline", import: "default", eager: true });
 

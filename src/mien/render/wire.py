@@ -37,8 +37,8 @@ class PlaceInArrays:
 class Shape:
     """What a mannequin needs of a body: roles, the neutral stance in world axes, and measures.
 
-    ``stance_rotations`` (J, 4) and ``stance_positions`` (J, 3); ``sole_depth`` and ``sole_length`` of the left
-    and right foot in leg lengths.
+    ``stance_rotations`` (J, 4) and ``stance_positions`` (J, 3); ``sole_depth`` and ``sole_length`` of the
+    left and right foot in leg lengths.
     """
 
     roles: dict[str, int]
@@ -85,7 +85,7 @@ class Frames:
 
 
 def encode(motion: Motion, clip: str, *, like: Figure | None = None, **more: Any) -> bytes:
-    """Return a motion as bytes; ``like`` is the figure of the clip it was made from, ``more`` goes in the head.
+    """Return a motion as bytes; ``like`` is the figure of what it was made from, ``more`` goes in the head.
 
     >>> from mien.samples import wave
     >>> encode(wave(seconds=1.0).motion, "wave")[:4]
