@@ -40,9 +40,9 @@ export class Actor extends Group {
     super();
     this.source = source;
     this.#options = options;
-    this.#figure = new Mannequin(source.head, options);
     this.#pose = newPose(source.head.joints.length);
     this.#world = newWorld(source.head.joints.length);
+    this.#figure = this.#made();
     this.#spots = options.quality === "low" ? new Spots() : null;
     this.add(this.#figure, this.#marks, ...(this.#spots ? [this.#spots] : []));
     this.#stand();
@@ -58,9 +58,9 @@ export class Actor extends Group {
     } else {
       this.#figure.removeFromParent();
       this.#figure.dispose();
-      this.#figure = new Mannequin(source.head, this.#options);
       this.#pose = newPose(source.head.joints.length);
       this.#world = newWorld(source.head.joints.length);
+      this.#figure = this.#made();
       this.add(this.#figure);
     }
     this.#stand();
@@ -125,6 +125,12 @@ export class Actor extends Group {
     this.#figure.dispose();
     this.#spots?.dispose();
     this.removeFromParent();
+  }
+
+  #made(): Mannequin {
+    const { source } = this;
+    const world = fk(source.pose(0, this.#pose), source.head.parents, this.#world);
+    return new Mannequin(source.head, world, this.#options);
   }
 
   #stand(): void {

@@ -73,7 +73,7 @@ export class OrbitCamera {
   /** Come as near as lets a box of this size, standing on the floor around the anchor, be seen whole. */
   frame(height: number, width: number, middle: Vector3, { jump = false } = {}): void {
     const slope = Math.tan(MathUtils.degToRad(FIELD / 2));
-    const distance = Math.max(height / 2 / slope, width / 2 / (slope * this.camera.aspect)) * 1.22 + width / 4;
+    const distance = Math.max(height / 2 / slope, width / 2 / (slope * this.camera.aspect)) * 1.2 + Math.min(width, 1.6) / 4;
     this.#goTo({ distance: clamp(distance, NEAREST, FURTHEST), pan: middle.clone().sub(this.anchor) }, jump);
   }
 

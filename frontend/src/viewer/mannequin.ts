@@ -3,8 +3,8 @@ import {
   BufferAttribute, BufferGeometry, Bone, Color, DetachedBindMode, Group, Matrix4, MeshBasicMaterial,
   MeshLambertMaterial, MeshStandardMaterial, Skeleton, SkinnedMesh, SRGBColorSpace, type Material,
 } from "three";
-import type { Frames } from "../messages";
-import { fk, newPose, newWorld, type World } from "../motion/pose";
+import type { Frames, Shape } from "../messages";
+import type { World } from "../motion/pose";
 import { cross, distance, subtract, unit, type Vector } from "../motion/vectors";
 import { PALETTE, solidsOf, STICK_PALETTE, type Cone, type Ellipsoid, type Solids } from "./solids";
 
@@ -30,10 +30,11 @@ export class Mannequin extends Group {
   #palette: readonly Vector[];
   #marked = "";
 
-  constructor(head: Frames, { quality = "high", palette }: FigureOptions = {}) {
+  /** `world` is any pose of it: where no body is found, it tells how long the sticks are. */
+  constructor(head: Frames, world: World, { quality = "high", palette }: FigureOptions = {}) {
     super();
     this.head = head;
-    const solids = solidsOf(head, calm(head));
+    const solids = solidsOf(head, head.shape ? stance(head.shape) : world);
     this.#shapes = new Shapes(solids, ROUND[quality]);
     this.#palette = palette ?? (head.shape ? PALETTE : STICK_PALETTE);
     this.#rig = new Rig(this.#shapes.frames);
@@ -84,7 +85,7 @@ export class Mannequin extends Group {
   /** Use another palette. */
   colour(palette: readonly Vector[] = this.#palette): void {
     this.#palette = palette;
-    const marked = new Set(this.#marked.split(" "));
+    const marked = new Set(this.#marked ? this.#marked.split(" ") : []);
     const everything = marked.has("all");
     this.#shapes.colour((colour, part) => {
       const [red, green, blue] = palette[colour] ?? palette[0];
@@ -124,16 +125,10 @@ function partsIn(part: string): readonly string[] {
   return [["hips", "spine", "chest"].includes(part) ? "torso" : part || "all"];
 }
 
-/** World transforms of a calm pose: the stance, or all joints unturned. */
-function calm(head: Frames): World {
-  const joints = head.joints.length;
-  if (head.shape) {
-    const { stance_rotations: turned, stance_positions: standing } = head.shape;
-    return { rotations: Float64Array.from(turned.flat()), positions: Float64Array.from(standing.flat()) };
-  }
-  const pose = newPose(joints);
-  for (let j = 0; j < joints; j++) pose.rotations[4 * j + 3] = 1;
-  return fk(pose, head.parents, newWorld(joints));
+/** World transforms of the neutral stance. */
+function stance(shape: Shape): World {
+  const { stance_rotations: turned, stance_positions: standing } = shape;
+  return { rotations: Float64Array.from(turned.flat()), positions: Float64Array.from(standing.flat()) };
 }
 
 /** Axes with the second from `start` to `end`; upright where both are the same. */

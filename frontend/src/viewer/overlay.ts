@@ -3,6 +3,13 @@
 import { clamp } from "../playback";
 import type { Theme } from "./stage";
 
+interface Name {
+  text: string;
+  x: number;
+  y: number;
+  strong: boolean;
+}
+
 type Style = Partial<Record<"position" | "left" | "right" | "top" | "bottom" | "width" | "height" | "font" | "color"
   | "background" | "padding" | "borderRadius" | "pointerEvents" | "transform" | "whiteSpace" | "border" | "cursor"
   | "inset" | "overflow" | "display" | "textAlign" | "touchAction" | "opacity", string>>;
@@ -60,14 +67,15 @@ export class Overlay {
 
   /** Show how long a metre is, or what of it is handy, where a metre is `pixels` long. */
   scale(pixels: number): void {
-    const metres = BARS.find((length) => length * pixels >= 44) ?? BARS[BARS.length - 1];
+    const metres = BARS.find((length) => length * pixels >= 54) ?? BARS[BARS.length - 1];
     this.#bar.textContent = `${metres} m`;
     this.#bar.style.width = `${metres * pixels}px`;
     show(this.#bar, metres * pixels < 400);
   }
 
-  /** Put names at places of the picture; the first is emphasised where asked. */
-  names(names: readonly { text: string; x: number; y: number; strong?: boolean }[]): void {
+  /** Put names at places of the picture, those asked to be strong first; what would cover another is left out. */
+  names(all: readonly Name[]): void {
+    const names = apart([...all].sort((a, b) => Number(b.strong) - Number(a.strong)));
     while (this.#names.length < names.length) this.#names.push(made(this.#root, NAME));
     this.#names.forEach((element, i) => {
       show(element, i < names.length);
@@ -119,6 +127,18 @@ export class Overlay {
   }
 }
 
+/** Leave out names that would cover one before them. */
+function apart(names: readonly Name[]): Name[] {
+  const kept: Name[] = [];
+  for (const one of names) {
+    const covers = kept.some(({ text, x, y }) =>
+      Math.abs(y - one.y) < 14 && one.x < x + LETTER * text.length && x < one.x + LETTER * one.text.length);
+    if (!covers) kept.push(one);
+  }
+  return kept;
+}
+
+const LETTER = 7; // pixels, about
 const LABEL: Style = {
   position: "absolute", top: "10px", padding: "2px 8px", borderRadius: "4px", whiteSpace: "nowrap",
 };

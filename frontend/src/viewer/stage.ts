@@ -27,7 +27,7 @@ export class Stage {
     this.#sun.shadow.mapSize.set(2048, 2048);
     this.#sun.shadow.radius = 5;
     this.#sun.shadow.bias = -0.0004;
-    this.#sun.shadow.normalBias = 0.012;
+    this.#sun.shadow.normalBias = 0.02;
     const seen = this.#sun.shadow.camera;
     seen.left = seen.bottom = -REACH;
     seen.right = seen.top = REACH;

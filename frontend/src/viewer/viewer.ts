@@ -44,7 +44,7 @@ export interface Stats {
   renderer: string;
 }
 
-const PLAIN: Vector = [176, 178, 182];
+const PLAIN: Vector = [190, 192, 196];
 const REACH = 16; // pixels from a joint that still mean it
 const PAUSE = 0.25; // seconds: longer gaps between pictures are no time that passed
 
@@ -266,9 +266,9 @@ export class Viewer {
     const { anchor } = this.camera;
     const middle = still ? new Vector3(anchor.x, 0, anchor.z) : new Vector3((low[0] + high[0]) / 2, 0, (low[2] + high[2]) / 2);
     middle.y = tall / 2;
-    const wide = still ? 0.8 * tall : Math.hypot(high[0] - low[0], high[2] - low[2]);
+    const way = still ? 0 : Math.hypot(high[0] - low[0], high[2] - low[2]);
     this.#aspect(this.#panes().length > 1 && this.#mode === "side" ? 0.5 : 1);
-    this.camera.frame(tall, wide, middle, { jump });
+    this.camera.frame(Math.max(tall, way), Math.max(0.8 * tall, way), middle, { jump });
     this.invalidate();
   }
 
@@ -502,7 +502,9 @@ export class Viewer {
   #projected({ lead, view: [from, to] }: Pane): { joint: number; name: string; x: number; y: number }[] {
     const { clientWidth: width, clientHeight: height } = this.#host;
     const { head } = lead.source;
-    return head.drawn.map((joint) => {
+    const roles = new Set(Object.values(head.shape?.roles ?? {}));
+    const first = head.drawn.filter((joint) => roles.has(joint)); // what people look for, before twists and fingers
+    return [...first, ...head.drawn.filter((joint) => !roles.has(joint))].map((joint) => {
       const { x, y } = lead.joint(joint).project(this.camera.camera);
       const across = from + ((x + 1) / 2) * (to - from);
       return { joint, name: head.joints[joint], x: across * width, y: ((1 - y) / 2) * height };
