@@ -83,11 +83,7 @@ def render(
         elif suffix in PAGES:
             _page(motion, target, other)
         else:
-            from ..render import strip
-
-            shown = seen or ("side", "front")
-            picture = strip(motion, against=other, poses=poses, views=shown, width=width, travel=travel)
-            save_picture(picture, target)
+            _strip(motion, target, other, seen or ["side", "front"], poses, width, travel)
         typer.echo(str(target))
     if failed:
         raise typer.Exit(2 if failed == len(found) else 1)
@@ -113,6 +109,20 @@ def _film(
         raise MienError("a film shows one view, such as --views three-quarter")
     view = views[0] if views else "three-quarter"
     animate(motion, target, against=other, beside=not ghost, view=view, force=force)
+
+
+def _strip(
+    motion: "Motion",
+    target: Path,
+    other: "Motion | None",
+    views: list[str],
+    poses: int,
+    width: int,
+    travel: bool,
+) -> None:
+    from ..render import strip
+
+    save_picture(strip(motion, against=other, poses=poses, views=views, width=width, travel=travel), target)
 
 
 def _page(motion: "Motion", target: Path, other: "Motion | None") -> None:
