@@ -1,8 +1,9 @@
-"""What the page and the server say to each other, as plain data; the page's TypeScript types are made from it.
+"""What the page and the server say to each other, as plain data.
 
-``scripts/messages.py`` writes ``frontend/src/messages.ts``, and a test sees that both agree. Lengths are in
-the clip's own unit, times in seconds, quaternions ``xyzw``. Arrays do not travel as JSON: ``Frames`` is the
-head of a binary answer, which says where each of them starts (``wire``).
+The page's TypeScript types are made from it: ``scripts/messages.py`` writes ``frontend/src/messages.ts``, and
+a test sees that both agree. Lengths are in the clip's own unit, times in seconds, quaternions ``xyzw``.
+Arrays do not travel as JSON: ``Frames`` is the head of a binary answer, which says where each of them starts
+(``wire``).
 """
 
 from dataclasses import dataclass, field
@@ -84,8 +85,8 @@ class PlaceInArrays:
 class Shape:
     """What a mannequin needs of a body: roles, the neutral stance in world axes, and measures.
 
-    ``stance_rotations`` (J, 4) and ``stance_positions`` (J, 3); ``sole_depth`` and ``sole_length`` of the left
-    and right foot in leg lengths.
+    ``stance_rotations`` (J, 4) and ``stance_positions`` (J, 3); ``sole_depth`` and ``sole_length`` of the
+    left and right foot in leg lengths.
     """
 
     roles: dict[str, int]
@@ -130,7 +131,10 @@ class Frames:
 
 @dataclass(frozen=True)
 class ClipInfo:
-    """A clip that is open. ``id`` is the SHA-256 of its file; ``problem`` says why it can only be looked at."""
+    """A clip that is open.
+
+    ``id`` is the SHA-256 of its file; ``problem`` says why it can only be looked at.
+    """
 
     id: str
     name: str
