@@ -9,7 +9,8 @@ Arrays do not travel as JSON: ``Frames`` is the head of a binary answer, which s
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-Value = bool | int | float | str | list[str] | list[list[float]] | None  # of a parameter; pairs are a keyed curve
+# Of a parameter; pairs of numbers are a keyed curve.
+Value = bool | int | float | str | list[str] | list[list[float]] | None
 Strength = int | float | list[list[float]]  # a number, or (seconds, value)
 LayerKind = Literal["emotion", "edit", "place"]
 ValueKind = Literal["number", "whole", "flag", "choice", "text", "list"]
