@@ -61,7 +61,7 @@ def check_front_end(front: Path) -> bool:
 
 
 def check_wheel(python: Path, place: Path, *, pages: bool) -> None:
-    """Build the wheel, install it where nothing of the source tree can be seen, run the demo and the studio."""
+    """Build the wheel, install it where nothing of the source tree is seen, run the demo and the studio."""
     run("build the wheel", python, "-m", "build", "--wheel", "--outdir", place / "dist", needed=True)
     wheel = next((place / "dist").glob("*.whl"))
     clean = environment(place / "clean")
