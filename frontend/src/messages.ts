@@ -83,7 +83,7 @@ export interface ExportRequest {
   options: Record<string, boolean | number | string | string[] | number[][] | null>;
 }
 
-/** A clip that is open. ``id`` is the SHA-256 of its file; ``problem`` says why it can only be looked at. */
+/** A clip that is open. */
 export interface ClipInfo {
   id: string;
   name: string;

@@ -39,10 +39,10 @@ if TYPE_CHECKING:
     from .motion import Skeleton as Skeleton
     from .recipe import Recipe as Recipe
     from .recipe import Step as Step
+    from .studio.widget import show as show
     from .styles.grid import Grid as Grid
     from .styles.grid import grid as grid
     from .styles.multitarget import blend as blend
-    from .studio.widget import show as show
 
     __version__: str
 
