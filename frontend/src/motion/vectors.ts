@@ -21,8 +21,12 @@ export function mix(a: Vector, b: Vector, share: number): Vector {
 
 /** The sum of vectors, each with its factor. */
 export function sum(...terms: readonly (readonly [number, Vector])[]): Vector {
-  let [x, y, z] = [0, 0, 0];
-  for (const [factor, v] of terms) {
+  let x = 0;
+  let y = 0;
+  let z = 0;
+  for (let i = 0; i < terms.length; i++) {
+    const factor = terms[i][0];
+    const v = terms[i][1];
     x += factor * v[0];
     y += factor * v[1];
     z += factor * v[2];
@@ -32,7 +36,7 @@ export function sum(...terms: readonly (readonly [number, Vector])[]): Vector {
 
 /** `v` turned by the quaternion `q`. */
 export function rotate(q: Vector, v: Vector): Vector {
-  const [x, y, z, w] = q;
+  const x = q[0], y = q[1], z = q[2], w = q[3];
   const s = 2 * (y * v[2] - z * v[1]);
   const t = 2 * (z * v[0] - x * v[2]);
   const r = 2 * (x * v[1] - y * v[0]);
@@ -41,8 +45,8 @@ export function rotate(q: Vector, v: Vector): Vector {
 
 /** The quaternion that turns by `b`, then by `a`. */
 export function multiply(a: Vector, b: Vector): Vector {
-  const [x, y, z, w] = a;
-  const [p, q, r, s] = b;
+  const x = a[0], y = a[1], z = a[2], w = a[3];
+  const p = b[0], q = b[1], r = b[2], s = b[3];
   return [
     w * p + x * s + y * r - z * q,
     w * q - x * r + y * s + z * p,

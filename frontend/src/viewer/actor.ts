@@ -9,7 +9,7 @@ import { fk, newPose, newWorld, positionOf, type Pose, type World } from "../mot
 import { distance, type Vector } from "../motion/vectors";
 import { Mannequin, type FigureOptions } from "./mannequin";
 import { PALETTE } from "./solids";
-import { groundAt, inRoom, travelOf, TRAILS, type Travel } from "./travel";
+import { groundAt, inRoom, travelOf, TRAILS, wayOf, type Travel, type Way } from "./travel";
 
 export interface Trails {
   hands: boolean;
@@ -32,6 +32,7 @@ export class Actor extends Group {
   #pose: Pose;
   #world: World;
   #travel: Travel | null = null;
+  #way: Way | null = null;
   #marks = new Group();
   #lines = new Map<string, Line<BufferGeometry, LineBasicMaterial>>();
   #spots: Spots | null;
@@ -107,7 +108,7 @@ export class Actor extends Group {
 
   /** The point of the floor below the figure: x and z. */
   get ground(): readonly [number, number] {
-    return groundAt(this.travel, this.seconds);
+    return groundAt((this.#way ??= wayOf(this.source)), this.seconds);
   }
 
   /** Show some trails, and the prints of the feet, or not. */
@@ -166,6 +167,7 @@ export class Actor extends Group {
 
   #forget(): void {
     this.#travel = null;
+    this.#way = null;
     this.#forgetMarks();
   }
 

@@ -94,6 +94,7 @@ class Builder implements Solids {
   readonly forward: Vector;
   readonly left: Vector;
   part = "";
+  #turns: Vector[] = [];
 
   constructor(head: Frames, readonly shape: Shape, readonly world: World) {
     this.unit = shape.leg_length;
@@ -130,8 +131,8 @@ class Builder implements Solids {
 
   /** Turn a vector of the neutral stance with a joint. */
   turned(joint: number, vector: Vector): Vector {
-    const turn = multiply(rotationOf(this.world, joint), conjugate(this.shape.stance_rotations[joint]));
-    return rotate(turn, vector);
+    this.#turns[joint] ??= multiply(rotationOf(this.world, joint), conjugate(this.shape.stance_rotations[joint]));
+    return rotate(this.#turns[joint], vector);
   }
 
   cone(start: Vector, end: Vector, radii: Pair, colour: number): void {

@@ -1,5 +1,6 @@
 // How a motion goes through the room, in metres with Y up and the floor at 0: the path on the floor, where it faces,
-// where its feet stand, and the paths of single joints. Looked at once for a motion, at evenly spaced times.
+// where its feet stand, and the paths of single joints. Looked at once for a motion, at evenly spaced times; the path
+// by itself, because it is wanted anew for every step of a slider.
 import type { Frames } from "../messages";
 import type { PoseSource } from "../motion/blend";
 import { fk, newPose, newWorld, positionOf } from "../motion/pose";
@@ -15,12 +16,18 @@ export interface Footprint {
   z: number;
 }
 
-export interface Travel {
+/** The path on the floor. */
+export interface Way {
   /** Seconds from one sample to the next. */
   readonly step: number;
   readonly count: number;
-  /** (N, 2) x and z of the path on the floor without the sway of single steps. */
+  /** (N, 2) x and z, without the sway of single steps. */
   readonly ground: Float64Array;
+}
+
+export interface Travel {
+  readonly step: number;
+  readonly count: number;
   /** The mean direction faced, as an angle about up from Z to X. */
   readonly facing: number;
   readonly footprints: readonly Footprint[];
@@ -32,6 +39,7 @@ export interface Travel {
 }
 
 const MOST = 900; // samples
+const COARSE = 1 / 12; // seconds from one sample of the way to the next: it is smooth, and wanted at once
 const SMOOTH = 0.35; // seconds: how far the path is smoothed
 const MERGE = 0.06; // metres: a foot that moved less has not left its print
 export const TRAILS = ["left_wrist", "right_wrist", "left_toe", "right_toe", "head"] as const;
@@ -42,6 +50,28 @@ export function inRoom(head: Frames, point: Vector): Vector {
   return [m * dot(head.left, point), m * (dot(head.up, point) - head.floor), m * dot(head.forward, point)];
 }
 
+export function wayOf(source: PoseSource): Way {
+  const { head, duration } = source;
+  const count = Math.max(2, Math.min(Math.ceil(duration / COARSE) + 1, MOST));
+  const step = duration / (count - 1) || source.frameTime;
+  const pose = newPose(head.joints.length);
+  const world = newWorld(head.joints.length);
+  const middle = middleOf(head);
+  const raw = new Float64Array(2 * count);
+  for (let i = 0; i < count; i++) {
+    fk(source.pose(i * step, pose), head.parents, world);
+    const hips = inRoom(head, positionOf(world, middle));
+    raw[2 * i] = hips[0];
+    raw[2 * i + 1] = hips[2];
+  }
+  return { step, count, ground: smooth(raw, SMOOTH / step) };
+}
+
+/** The joint in the middle of the figure. */
+function middleOf(head: Frames): number {
+  return head.shape?.roles["hips"] ?? head.drawn[0] ?? 0;
+}
+
 export function travelOf(source: PoseSource): Travel {
   const { head } = source;
   const count = Math.max(2, Math.min(source.frames, MOST));
@@ -50,8 +80,6 @@ export function travelOf(source: PoseSource): Travel {
   const world = newWorld(head.joints.length);
   const roles = head.shape?.roles ?? {};
   const joint = (role: string): number => roles[role] ?? roles[ELSE[role] ?? ""] ?? -1;
-  const middle = roles["hips"] ?? head.drawn[0] ?? 0;
-  const raw = new Float64Array(2 * count);
   const trails: Record<string, Float32Array> = {};
   for (const role of TRAILS) if (joint(role) >= 0) trails[role] = new Float32Array(3 * count);
   const range = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] };
@@ -60,9 +88,6 @@ export function travelOf(source: PoseSource): Travel {
   for (let i = 0; i < count; i++) {
     fk(source.pose(i * step, pose), head.parents, world);
     const at = (j: number): Vector => inRoom(head, positionOf(world, j));
-    const hips = at(middle);
-    raw[2 * i] = hips[0];
-    raw[2 * i + 1] = hips[2];
     for (const role of Object.keys(trails)) trails[role].set(at(joint(role)), 3 * i);
     for (const j of head.drawn) extend(range, at(j));
     if (!head.shape) continue;
@@ -78,7 +103,7 @@ export function travelOf(source: PoseSource): Travel {
   }
   const facing = Math.hypot(faced[0], faced[2]) > 0.2 * count ? Math.atan2(faced[0], faced[2]) : 0;
   const footprints = [...prints.left.done(), ...prints.right.done()];
-  return { step, count, ground: smooth(raw, SMOOTH / step), facing, footprints, trails, ...range };
+  return { step, count, facing, footprints, trails, ...range };
 }
 
 /** What stands in where a skeleton lacks a role. */
@@ -87,8 +112,7 @@ const ELSE: Record<string, string> = {
 };
 
 /** Where the path on the floor is at a time: x and z. */
-export function groundAt(travel: Travel, seconds: number): readonly [number, number] {
-  const { ground, count, step } = travel;
+export function groundAt({ ground, count, step }: Way, seconds: number): readonly [number, number] {
   const at = Math.min(Math.max(seconds / step, 0), count - 1);
   const i = Math.min(Math.floor(at), count - 2);
   const share = at - i;

@@ -223,7 +223,7 @@ export class Viewer {
 
   set neutral(on: boolean) {
     this.#neutral = on;
-    for (const actor of this.#cast_()) actor.palette = this.#palette();
+    for (const actor of this.#actors()) actor.palette = this.#palette();
     this.invalidate();
   }
 
@@ -287,12 +287,12 @@ export class Viewer {
   draw(): void {
     if (this.#disposed || this.#lost) return;
     const start = performance.now();
-    for (const actor of this.#cast_()) actor.seek(this.#secondsOf(actor));
+    for (const actor of this.#actors()) actor.seek(this.#secondsOf(actor));
     const panes = this.#panes();
     const width = this.#host.clientWidth;
     const height = this.#host.clientHeight;
     this.#mark();
-    for (const actor of this.#cast_()) {
+    for (const actor of this.#actors()) {
       actor.ghost = this.#mode === "overlay" && actor === this.#original && this.#edited !== null;
       const [x, z] = this.#treadmill ? actor.ground : [0, 0];
       actor.position.set(-x, 0, -z);
@@ -300,7 +300,7 @@ export class Viewer {
     this.#renderer.setScissorTest(panes.length > 1);
     for (const pane of panes) {
       this.#settle(pane.lead);
-      for (const actor of this.#cast_()) actor.visible = pane.actors.includes(actor);
+      for (const actor of this.#actors()) actor.visible = pane.actors.includes(actor);
       this.#point(pane.lead);
       const [from, to] = pane.view;
       this.#renderer.setViewport(from * width, 0, (to - from) * width, height);
@@ -359,7 +359,7 @@ export class Viewer {
     this.#disposed = true;
     cancelAnimationFrame(this.#request);
     for (const stop of this.#stops) stop();
-    for (const actor of this.#cast_()) actor.dispose();
+    for (const actor of this.#actors()) actor.dispose();
     this.camera.dispose();
     this.#stage.dispose();
     this.#overlay.dispose();
@@ -388,7 +388,7 @@ export class Viewer {
   }
 
   /** All figures there are. */
-  #cast_(): readonly Actor[] {
+  #actors(): readonly Actor[] {
     return [this.#original, this.#edited].filter((actor) => actor !== null);
   }
 
@@ -447,10 +447,10 @@ export class Viewer {
   #changed(): void {
     const lead = this.#lead();
     if (lead) {
-      const both = this.#timing === "time" && this.#panes().some((pane) => pane.actors.length > 1 || pane.cut[1] < 1);
-      const seen = both ? this.#cast_() : [lead];
+      // The original may be looked at for a moment: that must not move the time.
+      const seen = this.#timing === "phase" || this.#mode === "edited" ? [this.#edited ?? lead] : this.#actors();
       const duration = Math.max(...seen.map((actor) => actor.source.duration));
-      const frameTime = lead.source.frameTime;
+      const { frameTime } = (this.#edited ?? lead).source;
       if (duration !== this.playback.duration || frameTime !== this.playback.frameTime) {
         this.playback.set({ duration, frameTime });
       }
@@ -459,7 +459,7 @@ export class Viewer {
   }
 
   #leave(): void {
-    for (const actor of this.#cast_()) {
+    for (const actor of this.#actors()) {
       const behind = this.#mode === "overlay" && actor === this.#original && this.#edited;
       actor.leave(behind ? { hands: false, feet: false, head: false } : this.#trails, this.#footprints && !behind);
     }
