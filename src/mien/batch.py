@@ -124,7 +124,10 @@ class Subject:
 
 @dataclass(frozen=True)
 class Analysis:
-    """What was measured in a file, or the sentence that says what went wrong."""
+    """What was measured in a file, or the sentence that says what went wrong.
+
+    ``neutral`` is the clip that the reading is against, None where it is a guess.
+    """
 
     source: Path
     frames: int = 0
@@ -132,6 +135,7 @@ class Analysis:
     features: Features | None = None
     effort: Effort | None = None
     reading: Reading | None = None
+    neutral: Path | None = None
     error: str = ""
     unexpected: bool = False
 
@@ -145,7 +149,8 @@ def analyse_file(subject: Subject) -> Analysis:
     """Read one file and work out what it expresses, its Laban features and Effort factors."""
     try:
         motion = opened(subject.source, body=subject.body, **subject.read)
-        reading = _reading(subject, motion)
+        before = subject.neutral or (source_of(subject.source) if subject.of_source else None)
+        reading = _reading(subject, motion, before)
         laban = features(motion) if subject.laban else None
         factors = effort(motion) if subject.laban else None
     except (MienError, OSError, MemoryError) as error:
@@ -154,14 +159,26 @@ def analyse_file(subject: Subject) -> Analysis:
         if os.environ.get("MIEN_DEBUG"):
             raise
         return Analysis(subject.source, error=sentence(error), unexpected=True)
-    return Analysis(subject.source, len(motion), motion.duration, laban, factors, reading)
+    return Analysis(subject.source, len(motion), motion.duration, laban, factors, reading, before)
 
 
-def _reading(subject: Subject, motion: Motion) -> Reading:
-    before = subject.neutral or (source_of(subject.source) if subject.of_source else None)
-    neutral = opened(before, body=subject.body, **subject.read) if before else None
+def _reading(subject: Subject, motion: Motion, before: Path | None) -> Reading:
+    neutral = _rest(before, subject) if before else None
     model = load_model(subject.model) if subject.model else None
     return read(motion, neutral=neutral, model=model)
+
+
+_LAST: dict[Any, Motion] = {}  # the neutral clip read last: many clips of a folder have the same
+
+
+def _rest(path: Path, subject: Subject) -> Motion:
+    """Return a neutral clip, read once for all the clips that are compared with it one after the other."""
+    options = (*sorted(subject.read.items()), *sorted(subject.body.items()))
+    key = (path.resolve(), path.stat().st_mtime_ns, options)
+    if key not in _LAST:
+        _LAST.clear()
+        _LAST[key] = opened(path, body=subject.body, **subject.read)
+    return _LAST[key]
 
 
 def edited(job: Job) -> tuple[Motion, Motion]:

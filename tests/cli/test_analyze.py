@@ -18,7 +18,7 @@ from mien.analysis.laban_table import DERIVED, FEATURES, SELECTED
 
 Run = Callable[..., Result]
 ALL = [d.name for d in DERIVED]
-READ = ["valence", "arousal", "quadrant", "label", "probability", "against"]
+READ = ["valence", "arousal", "quadrant", "label", "probability", "placed", "against"]
 
 
 def rows(text: str) -> list[dict[str, str]]:
@@ -174,7 +174,7 @@ def test_what_a_clip_expresses(folder: Path, run: Run) -> None:
     mien.save(mien.edit(mien.load("walk.bvh"), "sad"), "low.bvh")
     found = mien.read(mien.load("low.bvh"), neutral=mien.load("walk.bvh"))
     lines = run("analyze", "low.bvh", "--neutral", "walk.bvh").stdout.splitlines()
-    assert lines[0] == "low.bvh, against its neutral clip"
+    assert lines[0] == "low.bvh, against walk.bvh"
     place = found.place
     assert lines[1] == f"  valence {place.valence:+.2f}, arousal {place.arousal:+.2f}: mild and unpleasant"
     assert lines[2] == f"  nearest words: {', '.join(found.words)}"

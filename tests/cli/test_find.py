@@ -48,7 +48,7 @@ def test_by_a_place(library: Path, run: Run) -> None:
     found = json.loads(run("find", ".", "--valence", -0.5, "--arousal", -0.5, "--json").stdout)
     assert len(found) == 5
     for entry in found:
-        away = np.hypot(entry["valence"] + 0.5, entry["arousal"] + 0.5)
+        away = np.hypot(entry["valence"] + 0.5, entry["arousal"] + 0.5) + 1.0 - entry["placed"]
         assert entry["distance"] == pytest.approx(away, abs=0.002)
 
 
@@ -74,6 +74,26 @@ def test_an_edited_clip_beside_its_source(library: Path, run: Run) -> None:
     assert against["walk.bvh"] == "usual"
     by_clip = json.loads(run("find", ".", "--like", "walk.bvh", "--json").stdout)
     assert {entry["against"] for entry in by_clip} == {"usual"}
+
+
+def test_a_neutral_clip_is_read_once(library: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    from mien import batch
+
+    read: list[str] = []
+    load = batch.load
+
+    def counted(path: Path, **options: object) -> mien.Motion:
+        read.append(str(path))
+        return load(path, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(batch, "load", counted)
+    arguments = ["--like", "sad", "--jobs", "1", "--json"]
+    run("find", "brisk.bvh", "deeper", "brisk_bent.bvh", "--neutral", "walk.bvh", *arguments)
+    assert read.count("walk.bvh") <= 1 + 1  # once before any work, to refuse what cannot be used
+    run("edit", "walk.bvh", "-e", "sad", "-o", "walk.bvh", "--force")
+    before = len(read)
+    run("find", "brisk.bvh", "--neutral", "walk.bvh", *arguments)
+    assert "walk.bvh" in read[before:], "a file that has changed is read again"
 
 
 def test_a_clip_that_fails_does_not_stop_the_others(library: Path, run: Run) -> None:

@@ -1,6 +1,7 @@
 """Finding clips: distances worked out by hand, and clips that are like another."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -87,3 +88,13 @@ def test_edits_find_their_like() -> None:
     for how in ("bent", "large"):
         others = {name: found for name, found in library.items() if name != f"walk {how}"}
         assert by_example(others, library[f"walk {how}"])[0].name == f"stroll {how}"
+
+
+def test_what_has_no_place_is_not_near_to_one() -> None:
+    """A clip that is like a label nowhere on the disc is no find, wherever the rest of it stands."""
+    sure = reading((0.1, -0.6), {"tired": 1.0})
+    nowhere = replace(reading((0.0, -0.6), {"old": 0.99}), placed=0.01)
+    library = {"nowhere": nowhere, "sure": sure}
+    assert [m.name for m in by_place(library, Point(0.0, -0.6))] == ["sure", "nowhere"]
+    found = by_word(library, "sleepy", model=MODEL)
+    assert [m.name for m in found] == ["sure", "nowhere"]

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from ..emotion.reading import Reading
 
 PER = ("clip", "window", "frame")
+SHORT = 0.5  # seconds; in less nobody has moved to and fro
+GUESSED = "against how people usually move: a guess, --neutral makes it sure"
 BESIDE = 4  # clips in one table for a person
 
 
@@ -210,16 +212,12 @@ def _read_out(analysis: "Analysis") -> None:
     found = analysis.reading
     if found is None:
         return
-    how = "against how people usually move: a guess, --neutral makes it sure"
-    how = "against its neutral clip" if found.against == "neutral" else how
+    how = f"against {analysis.neutral}" if analysis.neutral else GUESSED
     typer.echo(f"{analysis.source}, {how}")
-    place, quadrant = found.place, found.quadrant
-    typer.echo(f"  valence {place.valence:+.2f}, arousal {place.arousal:+.2f}: {quadrant}")
-    typer.echo(f"  nearest words: {', '.join(found.words)}")
-    likely = [f"{label} {100 * p:.0f} %" for label, p in list(found.labels.items())[:4] if p > 0.02]
-    typer.echo(f"  acted like: {', '.join(likely)}")
-    if found.why:
-        typer.echo(f"  because: {'; '.join(map(str, found.why))}")
+    if analysis.duration < SHORT:
+        typer.echo(f"  only {analysis.duration:.2f} s long: too short to say how somebody moves")
+    for line in found.lines():
+        typer.echo(f"  {line}")
 
 
 def _features(analysis: "Analysis") -> "Features":
@@ -254,6 +252,7 @@ def _read_columns(reading: "Reading") -> dict[str, Any]:
         "quadrant": reading.quadrant,
         "label": label,
         "probability": probability,
+        "placed": reading.placed,
         "against": reading.against,
     }
 
