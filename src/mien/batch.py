@@ -18,6 +18,7 @@ from .analysis.laban import Features, features
 from .curve import Varying, values
 from .edits.order import merged
 from .edits.registry import EDITS
+from .emotion.circumplex import clamp
 from .emotion.files import read_provenance, sidecar_of
 from .emotion.model import load_model
 from .emotion.reading import Reading, read
@@ -200,8 +201,20 @@ def doubts(job: Job, before: Motion, after: Motion) -> tuple[str, ...]:
     from .analysis.inspect import doubts as odd
     from .emotion.safe import mended
 
-    reached = [job.goal.reached(before, after)] if isinstance(job.goal, Aim) else []
+    reached = _reached(job, before, after)
     return (*_damage(job, before), *odd(before), *mended(after), *reached, *_nothing(job, before, after))
+
+
+def _reached(job: Job, before: Motion, after: Motion) -> list[str]:
+    """Return what was asked for, at the strength of the job, and what is read in the result."""
+    goal = job.goal
+    if not isinstance(goal, Aim):
+        return []
+    strength = max(values(job.strength))
+    way = strength * np.subtract(goal.to, goal.start)
+    said = replace(goal, to=clamp(*np.add(goal.start, way).tolist())).reached(before, after)
+    some = bool(job.parts or job.span) or not isinstance(job.strength, int | float)
+    return [f"{said}; all of the clip is read, where only some of it was to change" if some else said]
 
 
 def _nothing(job: Job, before: Motion, after: Motion) -> list[str]:
