@@ -160,7 +160,15 @@ def analyse_file(subject: Subject) -> Analysis:
         if os.environ.get("MIEN_DEBUG"):
             raise
         return Analysis(subject.source, error=sentence(error), unexpected=True)
-    return Analysis(subject.source, len(motion), motion.duration, laban, factors, reading, before)
+    return Analysis(
+        subject.source, len(motion), motion.duration, laban, factors, reading, before and _plain(before)
+    )
+
+
+def _plain(path: Path) -> Path:
+    """Return a path without steps up and down again, as it is told, where that is the same file."""
+    plain = Path(os.path.normpath(path))
+    return plain if plain.exists() and plain.samefile(path) else path
 
 
 def _reading(subject: Subject, motion: Motion, before: Path | None) -> Reading:

@@ -113,8 +113,8 @@ def test_a_clip_that_fails_does_not_stop_the_others(library: Path, run: Run) -> 
     ("arguments", "said"),
     [
         ([], "say what to find"),
-        (["--like", "sad", "--valence", "0"], "say what to find"),
-        (["--valence", "0.5"], "say what to find"),
+        (["--like", "sad", "--valence", "0"], "not both"),
+        (["--valence", "0.5"], "needs both numbers"),
         (["--like", "sadd"], "did you mean 'sad'?"),
         (["--like", "wolk.bvh"], "did you mean walk.bvh?"),
         (["--like", "sad", "--neutral", "none.bvh"], "none.bvh: there is no such file"),
@@ -133,3 +133,12 @@ def test_nothing_but_the_clip_itself(folder: Path, run: Run) -> None:
     result = run("find", "walk.bvh", "--like", "walk.bvh")
     assert result.exit_code == 2
     assert "nothing but walk.bvh" in result.stderr
+
+
+def test_names_of_files_are_never_broken(library: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However narrow the terminal is: they are to be copied."""
+    monkeypatch.setenv("COLUMNS", "40")
+    long = "a" * 120 + ".bvh"
+    Path("walk.bvh").rename(long)
+    lines = run("find", long, "brisk.bvh", "--like", "sad").stdout.splitlines()
+    assert sorted(line.split()[-1] for line in lines[1:]) == sorted([long, "brisk.bvh"])

@@ -44,13 +44,18 @@ def opened_body(path: Path, map_file: Path | None) -> "Motion":
 
     Raises ``MienError`` that names the clip where it has no body.
     """
+    motion = opened(path, None, False, None)
+    if map_file and set(read_map(map_file).values()) <= set(motion.skeleton.names):
+        motion = opened(path, None, False, map_file)
+    return with_body(path, motion)
+
+
+def with_body(path: Path, motion: "Motion") -> "Motion":
+    """Return the motion of a clip; raise ``BodyError``, which names the clip, where it has no body."""
     from ..errors import BodyError, MienError
     from ..kinematics.body import Body
     from .report import located
 
-    motion = opened(path, None, False, None)
-    if map_file and set(read_map(map_file).values()) <= set(motion.skeleton.names):
-        motion = opened(path, None, False, map_file)
     try:
         Body.of(motion)
     except MienError as error:
