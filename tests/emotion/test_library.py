@@ -60,7 +60,14 @@ def test_by_an_unknown_word() -> None:
 
 def test_by_an_example() -> None:
     found = by_example(LIBRARY, LIBRARY["c"])
-    assert [(m.name, m.distance) for m in found] == [("c", 0.0), ("a", 0.75), ("b", 0.75)]
+    assert [(m.name, m.distance) for m in found] == [("c", 0.0), ("b", 0.5), ("a", 0.75)]
+
+
+def test_what_is_like_it_but_more_is_nearer_than_what_is_like_nothing() -> None:
+    """Twice the manner is its like; a clip with nothing unusual is not, though its numbers are as near."""
+    example, more, plain = (reading((0.0, 0.0), {}, manner=m) for m in (1.0, 2.0, 0.0))
+    assert [m.name for m in by_example({"plain": plain, "more": more}, example)] == ["more", "plain"]
+    assert [m.name for m in by_example({"more": more, "example": example}, plain)] == ["example", "more"]
 
 
 def test_guesses_are_not_mixed_with_what_is_sure() -> None:
@@ -71,7 +78,7 @@ def test_guesses_are_not_mixed_with_what_is_sure() -> None:
 
 def test_plain_data() -> None:
     data = by_example(LIBRARY, LIBRARY["c"])[1].as_data()
-    assert (data["file"], data["distance"], data["valence"]) == ("a", 0.75, 0.343)
+    assert (data["file"], data["distance"], data["valence"]) == ("b", 0.5, 0.043)
     assert "why" not in data
 
 

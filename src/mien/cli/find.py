@@ -44,8 +44,8 @@ def find(
     """Find the clips that express something: nearest to a word, to a place on the disc, or to a clip.
 
     By a word or place, distances are those on the disc, to which a label adds what its probability lacks to
-    1, and a place the share of a reading that has no place. By a clip, they tell how much the manner differs,
-    in units of what is usual.
+    1, and a place the share of a reading that has no place. By a clip, they tell how much the manner differs:
+    0 is the same, near 1 has nothing in common.
 
     mien find takes/ --like tired --top 5
 

@@ -3,8 +3,9 @@
 * To a **word** that the model has as a label: the distance on the disc, where the label has a place, and how
   much its probability lacks to 1. To any other emotion word: as to its place.
 * To a **place**: the distance on the disc, 0 to 2, and the share of the reading that has no place there.
-* To an **example**: the root mean square of what differs in manner, in units of what is usual. What is done
-  in the clips matters as well as how: a wave is not near to any walk.
+* To an **example**: how much differs in manner, as a share of what both have: 0 is the same, near 1 nothing
+  in common. So a clip in which little is unusual is not near to everything. What is done in the clips matters
+  as well as how: a wave is seldom near to a walk.
 """
 
 from collections.abc import Mapping
@@ -14,9 +15,12 @@ from typing import Any
 import numpy as np
 
 from ..errors import MienError, unknown
+from ..typing import Array
 from .circumplex import Point, words
 from .model import EmotionModel
 from .reading import Reading
+
+SLIGHT = 0.25  # of what is usual: between clips that have hardly more, what differs counts by its size
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,11 +69,16 @@ def by_example(library: Mapping[str, Reading], example: Reading) -> tuple[Match,
     """
     if any(reading.against != example.against for reading in library.values()):
         raise MienError("to compare clips with an example, read all against a neutral clip, or none")
+    own = _size(example.manner)
     away = {
-        name: float(np.sqrt(np.mean((reading.manner - example.manner) ** 2)))
+        name: _size(reading.manner - example.manner) / (_size(reading.manner) + own + SLIGHT)
         for name, reading in library.items()
     }
     return _sorted(library, away)
+
+
+def _size(manner: Array) -> float:
+    return float(np.sqrt(np.mean(manner**2)))
 
 
 def _away(reading: Reading, place: Point) -> float:
