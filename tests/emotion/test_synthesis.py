@@ -86,7 +86,9 @@ def test_so_it_is_with_the_shipped_model(method: str) -> None:
     assert sad["torso"] < before["torso"] - 0.01  # its actors hardly lower the pelvis
     assert next(s.parameters["rate"] for s in recipe.steps if s.edit == "tempo") < 1.0
     happy = heights(mien.apply(walk, synthesise(walk, HAPPY, method=method)))
-    assert all(happy[what] > sad[what] for what in before)
+    assert happy["torso"] > sad["torso"]
+    assert happy["hands"] > sad["hands"]
+    assert happy["pelvis"] > sad["pelvis"] - 1e-3  # legs that are straight lift no pelvis
 
 
 @pytest.mark.parametrize("place", [SAD, HAPPY, ANGRY, RELAXED, Point(0.0, -0.9), Point(0.3, 0.0)])

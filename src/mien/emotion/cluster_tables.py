@@ -34,7 +34,7 @@ from .pose_clusters import PoseSet, medoids, nearest
 HELD = 2.0  # takes of a label in a cluster that count as much as its change over all clusters
 WHOLE = 6.0  # poses (1 s) of a take in a cluster that make it half a take
 COMMON = 0.5  # of what all takes of a performer have in common that is taken out
-EFFECTIVE = 0.4  # of the spread among takes of a label that labels differ by, at least
+EFFECTIVE = 0.25  # of the spread among takes of a label that labels differ by, at least
 # Six volumes of one body say much the same; together they count as two features.
 ALIKE = np.array([np.sqrt(1.0 / 3.0) if n in (18, 19, 26, 27, 28, 29) else 1.0 for n in NUMBERS])
 # Left and right of a feature: what an emotion changes is the same on both sides.

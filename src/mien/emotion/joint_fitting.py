@@ -25,9 +25,9 @@ from .control_features import faces
 from .rule_fitting import HIGH, LOW, Found, fit, penalty
 from .rule_wish import Wish
 
-TRIALS = 3  # of the first stage at most
+TRIALS = 2  # of the first stage at most
 APART = 10.0  # seconds between keyframes, so that the way from one to the next says nothing
-KNOT, MOST_KNOTS = 1.0 / 3.0, 36  # seconds between knots; more than so many are further apart
+KNOT, MOST_KNOTS = 1.0 / 3.0, 24  # seconds between knots; more than so many are further apart
 SIZE, BEND = 0.5, 4.0  # mu_2 and mu_3, of q in half ranges of log c
 FURTHEST = 0.35  # of q, in log c
 HALVINGS = 2

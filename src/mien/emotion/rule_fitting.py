@@ -24,7 +24,7 @@ PENALTY = 0.5  # of log c, over half its range, in spreads of one feature
 STEP = 1e-4  # of a coefficient, for its slope
 LOOKED_AT = 9  # values of a single coefficient over its range, before the search
 NUDGE = 0.02  # of the range that a search starts from its ends
-ROUGH, TRIALS = 3e-3, 12  # a search ends where it gains less, or after so many
+ROUGH, TRIALS = 3e-3, 8  # a search ends where it gains less, or after so many
 # The rules about poses in their order, and where their coefficients are.
 PLACES = {"pelvis": [0], "torso": [1], "hands": list(range(2, len(NAMES)))}
 # Where coefficients are looked for: not as far as the edit goes, as a hand that comes nearer to four places

@@ -21,7 +21,7 @@ from .control_features import KEYFRAMES, ORDER, POSE, Poses, faces, keyframes, m
 from .pose_clusters import PoseSet, nearest, settled
 from .wishes import Wanted
 
-MOST, FEWEST = 20, 4  # keyframes of a clip, and of a cluster
+MOST, FEWEST = 16, 4  # keyframes of a clip, and of a cluster
 STRIDE = 0.5  # seconds between windows that tell the pace
 STAY = 1.0  # seconds: a shorter stay in a cluster is none
 COUNT = len(POSE)
