@@ -1,0 +1,115 @@
+// Curves of many frames on few pixels: a line where frames are few, else lowest and highest of each column.
+import type { View } from "./view";
+
+const DENSE = 2; // frames a pixel from which a line would only be a blot
+
+/** The first index whose time is at or after `time`. */
+export function indexAt(times: ArrayLike<number>, time: number): number {
+  let low = 0;
+  let high = times.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (times[middle] < time) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** The frames in view, to both edges and beyond. */
+function stretch(times: ArrayLike<number>, view: View): [number, number] {
+  return [Math.max(indexAt(times, view.start) - 1, 0), Math.min(indexAt(times, view.end) + 1, times.length)];
+}
+
+export function isDense(times: ArrayLike<number>, view: View, width: number): boolean {
+  const [from, to] = stretch(times, view);
+  return to - from > DENSE * width;
+}
+
+/** The points of a line, as (pixel, value) one after the other. */
+export function points(
+  times: ArrayLike<number>, values: ArrayLike<number>, view: View, width: number,
+): number[] {
+  const [from, to] = stretch(times, view);
+  const scale = width / (view.end - view.start);
+  const out: number[] = [];
+  for (let i = from; i < to; i++) out.push((times[i] - view.start) * scale, values[i]);
+  return out;
+}
+
+/** What a column of pixels has to show: no peak is lost, were it one frame long. */
+export interface Column {
+  pixel: number;
+  low: number;
+  high: number;
+}
+
+/** The lowest and highest value of every column that has frames. What is no number is left out. */
+export function columns(
+  times: ArrayLike<number>, values: ArrayLike<number>, view: View, width: number,
+): Column[] {
+  const [from, to] = stretch(times, view);
+  const scale = width / (view.end - view.start);
+  const out: Column[] = [];
+  for (let i = from; i < to; i++) {
+    const value = values[i];
+    if (!Number.isFinite(value)) continue;
+    const pixel = Math.floor((times[i] - view.start) * scale);
+    const last = out.at(-1);
+    if (last?.pixel !== pixel) out.push({ pixel, low: value, high: value });
+    else if (value < last.low) last.low = value;
+    else if (value > last.high) last.high = value;
+  }
+  return out;
+}
+
+/** Lowest and highest of several series; a level one gets some room. */
+export function extent(...series: ArrayLike<number>[]): [number, number] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const values of series)
+    for (let i = 0; i < values.length; i++) {
+      if (values[i] < low) low = values[i];
+      if (values[i] > high) high = values[i];
+    }
+  if (low > high) return [0, 1];
+  if (high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high), 1e-9)) return [low, high];
+  const room = Math.max(Math.abs(low) * 0.05, 1e-3);
+  return [low - room, high + room];
+}
+
+/** Where a value stands in a lane. */
+export type Height = (value: number) => number;
+
+export function heights(low: number, high: number, height: number, margin = 2): Height {
+  return (value) => height - margin - ((value - low) / (high - low)) * (height - 2 * margin);
+}
+
+/** The path of `points`; gaps where a value is no number. */
+export function line(found: number[], y: Height): string {
+  let out = "";
+  let pen = false;
+  for (let i = 0; i < found.length; i += 2) {
+    const at = y(found[i + 1]);
+    if (Number.isFinite(at)) out += `${pen ? "L" : "M"}${found[i].toFixed(1)} ${at.toFixed(1)}`;
+    pen = Number.isFinite(at);
+  }
+  return out;
+}
+
+/** The outline of `columns`: along the highest values and back along the lowest. */
+export function band(found: Column[], y: Height): string {
+  if (!found.length) return "";
+  const there = found.map(({ pixel, high }) => `${pixel + 0.5} ${(y(high) - 0.5).toFixed(1)}`);
+  const back = found.map(({ pixel, low }) => `${pixel + 0.5} ${(y(low) + 0.5).toFixed(1)}`);
+  return `M${there.join("L")}L${back.reverse().join("L")}Z`;
+}
+
+/** The value at a moment, between the two nearest points; null where there is none. */
+export function valueAt(times: ArrayLike<number>, values: ArrayLike<number>, time: number): number | null {
+  if (times.length === 0) return null;
+  const i = indexAt(times, time);
+  if (i === 0) return values[0];
+  if (i === times.length) return values[i - 1];
+  const share = (time - times[i - 1]) / (times[i] - times[i - 1]);
+  return values[i - 1] + share * (values[i] - values[i - 1]);
+}
