@@ -19,6 +19,7 @@ TYPES = {
     "png": "image/png",
     "gif": "image/gif",
     "mp4": "video/mp4",
+    "html": "text/html; charset=utf-8",
 }
 SUFFIXES = {"recipe": "toml"}
 MOST_PIXELS = 8000
@@ -55,6 +56,12 @@ def _png(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Va
     return data.getvalue()
 
 
+def _html(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
+    from ..render import page
+
+    return page(after, against=before if options.get("beside", True) else None).encode()
+
+
 def _film(suffix: str) -> Callable[..., bytes]:
     def made(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
         from ..render import animate
@@ -81,4 +88,5 @@ MAKERS: Mapping[str, Callable[..., bytes]] = {
     "png": _png,
     "gif": _film("gif"),
     "mp4": _film("mp4"),
+    "html": _html,
 }
