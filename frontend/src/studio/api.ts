@@ -67,8 +67,8 @@ export class Api {
   edit = async (request: messages.EditRequest, signal?: AbortSignal): Promise<Clip> =>
     decode(await this.#bytes("edit", { method: "POST", json: request, seconds: 120, signal }));
 
-  square = async (clip: string) =>
-    unpack<messages.Frames>(await this.#bytes("square", { method: "POST", json: { clip }, seconds: 120 }));
+  square = async (request: messages.EditRequest) =>
+    unpack<messages.Frames>(await this.#bytes("square", { method: "POST", json: request, seconds: 120 }));
 
   reading = (request: messages.EditRequest, signal?: AbortSignal) =>
     this.#json<messages.Readings>("reading", { method: "POST", json: request, seconds: 120, signal });

@@ -49,7 +49,9 @@ describe("layers", () => {
     expect(stacks.active(stack).map((layer) => layer.name)).toEqual(["b", "c"]);
     stack = stacks.solo(stack, idOf(stack, "c"));
     expect(stacks.active(stack).map((layer) => layer.name)).toEqual(["c"]);
-    stack = stacks.solo(stacks.bypass(stack, idOf(stack, "c")), idOf(stack, "a"));
+    stack = stacks.bypass(stack, idOf(stack, "c"));
+    expect(stacks.active(stack).map((layer) => layer.name)).toEqual(["b"]);
+    stack = stacks.bypass(stack, idOf(stack, "b"));
     expect(stacks.active(stack)).toEqual([]);
     expect(stacks.isIdle(stack)).toBe(true);
   });

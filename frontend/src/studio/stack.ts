@@ -134,10 +134,11 @@ export function setEdit(
   return { stack: add(stack, layer), id: layer.id };
 }
 
-/** The layers that are done: those that are on, and where any is solo only the solo ones. */
+/** The layers that are done, as the server sees it: those that are on, or of them only the solo ones. */
 export function active(stack: Stack): Layer[] {
-  const alone = stack.layers.some((layer) => layer.solo);
-  return stack.layers.filter((layer) => layer.on && (!alone || layer.solo));
+  const on = stack.layers.filter((layer) => layer.on);
+  const alone = on.filter((layer) => layer.solo);
+  return alone.length ? alone : on;
 }
 
 /** Whether the stack leaves a clip as it is, so that nobody has to be asked. */
