@@ -1,0 +1,7 @@
+import { mount } from "svelte";
+import Demo from "./demo/Demo.svelte";
+import "./theme.css";
+
+const theme = new URLSearchParams(location.search).get("theme");
+if (theme) document.documentElement.dataset.theme = theme;
+export default mount(Demo, { target: document.getElementById("demo")! });
