@@ -1,9 +1,10 @@
 """All checks of the project, in an environment of their own: ``python3.11 scripts/check.py``.
 
-Makes ``.venv`` (kept for the next time), installs mien with its development tools, runs ruff, mypy and
-pytest, builds the documentation and the wheel, installs that in a second, empty environment and runs the
-demo there. Needs Python 3.11 and a package registry; nothing else. What is given after the name goes to
-pytest.
+Makes ``.venv`` (kept for the next time), installs mien with its development tools, checks, tests and builds
+the front end, runs ruff, mypy and pytest, builds the documentation and the wheel, installs that in a second,
+empty environment and runs the demo and the studio there. Needs Python 3.11 and a package registry. Without
+npm (Node 20 or newer) the front end is left out, without Chromium the tests in a browser, and it says so.
+What is given after the name goes to pytest.
 """
 
 import shutil
@@ -46,8 +47,21 @@ def environment(path: Path) -> Path:
     return python_of(path)
 
 
-def check_wheel(python: Path, place: Path) -> None:
-    """Build the wheel, install it where nothing of the source tree can be seen, and run the demo."""
+def check_front_end(front: Path) -> bool:
+    """Check, test and build the pages; returns whether they could be built."""
+    npm = shutil.which("npm")
+    if npm is None:
+        print("== front end: SKIPPED, there is no npm (Node 20 or newer); so are its tests in a browser")
+        return False
+    run("install the front end's packages", npm, "ci", "--no-audit", "--no-fund", folder=front, needed=True)
+    run("types of the front end", npm, "run", "--silent", "check", folder=front)
+    run("tests of the front end", npm, "test", "--silent", folder=front)
+    run("build the front end", npm, "run", "--silent", "build", folder=front)
+    return True
+
+
+def check_wheel(python: Path, place: Path, *, pages: bool) -> None:
+    """Build the wheel, install it where nothing of the source tree is seen, run the demo and the studio."""
     run("build the wheel", python, "-m", "build", "--wheel", "--outdir", place / "dist", needed=True)
     wheel = next((place / "dist").glob("*.whl"))
     clean = environment(place / "clean")
@@ -66,6 +80,9 @@ def check_wheel(python: Path, place: Path) -> None:
     if not (any(n.endswith(".bvh") for n in made) and any(n.endswith(".png") for n in made)):
         FAILED.append("the demo's files")
         print(f"== the demo should have written a BVH and a picture, found {made}", flush=True)
+    if pages:
+        run("install the studio", clean, "-m", "pip", "install", "--quiet", f"{wheel}[studio]", needed=True)
+        run("the studio, from the wheel", clean, ROOT / "scripts" / "try_studio.py", folder=place)
 
 
 def main() -> None:
@@ -76,7 +93,8 @@ def main() -> None:
     install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     run("pip that knows dependency groups", *install, "--upgrade", "pip>=25.1", needed=True)
     groups = ["--group", "dev", "--group", "docs"]
-    run("install mien and its tools", *install, "--editable", ".[video]", *groups, needed=True)
+    run("install mien and its tools", *install, "--editable", ".[video,studio]", *groups, needed=True)
+    pages = check_front_end(ROOT / "frontend")
     run("ruff check", python, "-m", "ruff", "check", ".")
     run("ruff format", python, "-m", "ruff", "format", "--check", ".")
     run("mypy", python, "-m", "mypy")
@@ -84,7 +102,7 @@ def main() -> None:
     place = Path(tempfile.mkdtemp(prefix="mien-check-"))
     try:
         run("documentation", python, "-m", "sphinx", "-q", "-W", "--keep-going", "docs", place / "docs")
-        check_wheel(python, place)
+        check_wheel(python, place, pages=pages)
     finally:
         shutil.rmtree(place, ignore_errors=True)
     sys.exit(f"== FAILED: {', '.join(FAILED)}" if FAILED else None)

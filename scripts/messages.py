@@ -1,4 +1,4 @@
-"""Write ``frontend/src/messages.ts``: the studio's messages as TypeScript types, from the Python dataclasses."""
+"""Write ``frontend/src/messages.ts``: the studio's messages as TypeScript types, from Python's."""
 
 import dataclasses
 import sys

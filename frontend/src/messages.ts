@@ -81,7 +81,7 @@ export interface Frames {
   seconds: number;
 }
 
-/** A clip that is open. ``id`` is the SHA-256 of its file; ``problem`` says why it can only be looked at. */
+/** A clip that is open. */
 export interface ClipInfo {
   id: string;
   name: string;

@@ -24,6 +24,7 @@ LAYERS = (
     ("emotion", "styles"),
     ("render", "samples"),
     ("batch",),
+    ("studio",),
     ("cli",),
     ("__main__",),
 )

@@ -17,6 +17,7 @@ from .pose import pose
 from .presets import presets
 from .render import render
 from .signature import with_parameters
+from .studio import studio
 
 COMMANDS: tuple[Callable[..., None], ...] = (
     demo,
@@ -31,6 +32,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     diff,
     check,
     render,
+    studio,
     pose,
     doctor,
 )

@@ -1,15 +1,17 @@
-"""What the page and the server say to each other, as plain data; the page's TypeScript types are made from it.
+"""What the page and the server say to each other, as plain data.
 
-``scripts/messages.py`` writes ``frontend/src/messages.ts``, and a test sees that both agree. Lengths are in
-the clip's own unit, times in seconds, quaternions ``xyzw``. Arrays do not travel as JSON: ``Frames`` is the
-head of a binary answer, which says where each of them starts (``wire``).
+The page's TypeScript types are made from it: ``scripts/messages.py`` writes ``frontend/src/messages.ts``, and
+a test sees that both agree. Lengths are in the clip's own unit, times in seconds, quaternions ``xyzw``.
+Arrays do not travel as JSON: ``Frames`` is the head of a binary answer, which says where each of them starts
+(``wire``).
 """
 
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-Value = bool | float | str | list[str] | list[list[float]] | None  # of a parameter; pairs are a keyed curve
-Strength = float | list[list[float]]  # a number, or (seconds, value)
+# Of a parameter; pairs of numbers are a keyed curve.
+Value = bool | int | float | str | list[str] | list[list[float]] | None
+Strength = int | float | list[list[float]]  # a number, or (seconds, value)
 LayerKind = Literal["emotion", "edit", "place"]
 ValueKind = Literal["number", "whole", "flag", "choice", "text", "list"]
 ExportKind = Literal["bvh", "recipe", "png", "gif", "mp4", "html", "project"]
@@ -84,8 +86,8 @@ class PlaceInArrays:
 class Shape:
     """What a mannequin needs of a body: roles, the neutral stance in world axes, and measures.
 
-    ``stance_rotations`` (J, 4) and ``stance_positions`` (J, 3); ``sole_depth`` and ``sole_length`` of the left
-    and right foot in leg lengths.
+    ``stance_rotations`` (J, 4) and ``stance_positions`` (J, 3); ``sole_depth`` and ``sole_length`` of the
+    left and right foot in leg lengths.
     """
 
     roles: dict[str, int]
@@ -130,7 +132,10 @@ class Frames:
 
 @dataclass(frozen=True)
 class ClipInfo:
-    """A clip that is open. ``id`` is the SHA-256 of its file; ``problem`` says why it can only be looked at."""
+    """A clip that is open.
+
+    ``id`` is the SHA-256 of its file; ``problem`` says why it can only be looked at.
+    """
 
     id: str
     name: str

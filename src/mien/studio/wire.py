@@ -7,7 +7,7 @@ The page works out world transforms itself, pose by pose: so that it can blend r
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,7 @@ ALIGNMENT = 4
 
 
 def encode(motion: Motion, clip: str, *, like: Figure | None = None, **more: Any) -> bytes:
-    """Return a motion as bytes; ``like`` is the figure of the clip it was made from, ``more`` goes in the head.
+    """Return a motion as bytes; ``like`` is the figure of its source, ``more`` goes in the head.
 
     >>> from mien.samples import wave
     >>> encode(wave(seconds=1.0).motion, "wave")[:4]
@@ -39,7 +39,7 @@ def encode(motion: Motion, clip: str, *, like: Figure | None = None, **more: Any
         "offsets": motion.translations[0].astype("<f4"),
         "contacts": _contacts(motion, figure),
     }
-    frames = replace(_frames(motion, figure, clip, moving.tolist()), arrays=places(arrays), **more)
+    frames = frames_of(motion, figure, clip, moving.tolist(), arrays=places(arrays), **more)
     return packed(asdict(frames), arrays)
 
 
@@ -67,7 +67,8 @@ def _padded(length: int) -> int:
     return -(-length // ALIGNMENT) * ALIGNMENT
 
 
-def _frames(motion: Motion, figure: Figure, clip: str, moving: Sequence[int]) -> Frames:
+def frames_of(motion: Motion, figure: Figure, clip: str, moving: Sequence[int], **more: Any) -> Frames:
+    """Return the head of an answer with a motion; ``moving`` joints have translations, ``more`` is added."""
     body = figure.body
     up, forward = figure.up, body.forward if body else np.array([0.0, 0.0, 1.0])
     drawn = range(len(motion.skeleton)) if figure.drawn is None else figure.drawn
@@ -86,6 +87,7 @@ def _frames(motion: Motion, figure: Figure, clip: str, moving: Sequence[int]) ->
         left=np.cross(up, forward).tolist(),
         floor=float(figure.floor),
         shape=_shape(figure),
+        **more,
     )
 
 

@@ -1,0 +1,84 @@
+"""What the studio gives as files: the edited clip, its recipe, a picture, a film."""
+
+import tempfile
+from collections.abc import Callable, Mapping
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from ..emotion.recipe_text import format_recipe
+from ..errors import MienError
+from ..formats import bvh
+from ..motion import Motion
+from ..recipe import Recipe
+from .messages import Value
+
+TYPES = {
+    "bvh": "text/plain; charset=utf-8",
+    "recipe": "application/toml",
+    "png": "image/png",
+    "gif": "image/gif",
+    "mp4": "video/mp4",
+}
+SUFFIXES = {"recipe": "toml"}
+MOST_PIXELS = 8000
+
+
+def export(kind: str, before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
+    """Return the bytes of a file of a kind (``TYPES``); raises ``MienError`` where there is none such."""
+    if kind not in MAKERS:
+        raise MienError(f"there is no export as {kind}; there are {', '.join(MAKERS)}")
+    return MAKERS[kind](before, after, recipe, options)
+
+
+def file_name(clip: str, kind: str) -> str:
+    """Return what a file of a kind is called that is made of a clip."""
+    return f"{Path(clip).stem}_edited.{SUFFIXES.get(kind, kind)}"
+
+
+def _bvh(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
+    return bvh.render(after)
+
+
+def _recipe(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
+    return format_recipe(recipe).encode()
+
+
+def _png(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
+    from ..render import strip
+
+    against = before if options.get("ghost", True) else None
+    width = _whole(options, "width", 1600, 200, MOST_PIXELS)
+    picture = strip(after, against=against, poses=_whole(options, "poses", 8, 1, 60), width=width)
+    data = BytesIO()
+    picture.save(data, "PNG")
+    return data.getvalue()
+
+
+def _film(suffix: str) -> Callable[..., bytes]:
+    def made(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
+        from ..render import animate
+
+        against = before if options.get("beside", True) else None
+        size = _whole(options, "height", 480, 120, 1080)
+        with tempfile.TemporaryDirectory() as folder:
+            path = animate(after, Path(folder) / f"film.{suffix}", against=against, size=size)
+            return path.read_bytes()
+
+    return made
+
+
+def _whole(options: Mapping[str, Value], name: str, usual: int, low: int, high: int) -> int:
+    value: Any = options.get(name, usual)
+    if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
+        raise MienError(f"{name} must be a number from {low} to {high}, got {value!r:.40}")
+    return int(value)
+
+
+MAKERS: Mapping[str, Callable[..., bytes]] = {
+    "bvh": _bvh,
+    "recipe": _recipe,
+    "png": _png,
+    "gif": _film("gif"),
+    "mp4": _film("mp4"),
+}

@@ -1,0 +1,223 @@
+"""The studio's server: a few addresses under ``/api``, and the built page. Knows HTTP, works nothing out."""
+
+import asyncio
+import json
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from fastapi import FastAPI, Request, Response
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse, PlainTextResponse
+from starlette.concurrency import run_in_threadpool
+from starlette.staticfiles import StaticFiles
+
+from ..emotion.safe import mended
+from ..errors import FormatError, MienError, sentence
+from ..formats import bvh
+from ..samples import SAMPLES
+from . import answers
+from .catalogue import SHOWN, hello
+from .copied import copied
+from .exports import TYPES, export, file_name
+from .messages import (
+    Checks,
+    ClipInfo,
+    Copied,
+    Curve,
+    CurvesRequest,
+    EditRequest,
+    ExportRequest,
+    Hello,
+    Project,
+    Readings,
+)
+from .pictures import preset_picture
+from .security import App, Guard
+from .session import Session, SupersededError
+from .square import encode_square
+from .stack import asked
+from .wire import encode
+
+STATIC = Path(__file__).parent / "static"
+LARGEST_UPLOAD = 256 * 2**20
+LONGEST_UPLOAD = 120.0  # seconds
+BINARY = "application/octet-stream"
+NOT_BUILT = (
+    "The studio's page is not part of this installation: it was not built. In a source tree, run\n"
+    "  npm ci && npm run build\nin the folder frontend, and start the studio again.\n"
+)
+
+
+def make_app(session: Session, *, token: str, hosts: frozenset[str]) -> App:
+    """Return the application for a session; ``hosts`` are the addresses it answers to."""
+    app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
+    _failures(app)
+    _clips(app, session)
+    _edits(app, session)
+    _projects(app, session)
+    if (STATIC / "index.html").is_file():
+        app.mount("/", StaticFiles(directory=STATIC, html=True))
+    else:
+        app.get("/")(lambda: PlainTextResponse(NOT_BUILT, 503))
+    return Guard(app, hosts=hosts, token=token, largest_upload=LARGEST_UPLOAD)
+
+
+def _failures(app: FastAPI) -> None:
+    """Make every failure one sentence in JSON."""
+
+    def answer(status: int) -> Callable[[Request, Exception], Response]:
+        return lambda _, error: JSONResponse({"error": sentence(error)}, status)
+
+    def misfit(_: Request, error: Exception) -> Response:
+        found: Any = error.errors()[0] if isinstance(error, RequestValidationError) else {}
+        where = ".".join(map(str, found.get("loc", ())[1:]))
+        return JSONResponse({"error": f"the message does not fit: {where}: {found.get('msg', '')}"}, 422)
+
+    app.add_exception_handler(SupersededError, answer(409))
+    app.add_exception_handler(MienError, answer(422))
+    app.add_exception_handler(OSError, answer(500))
+    app.add_exception_handler(Exception, answer(500))
+    app.add_exception_handler(RequestValidationError, misfit)
+
+
+def _clips(app: FastAPI, session: Session) -> None:
+    @app.get("/api/hello")
+    def greet() -> Hello:
+        with session.alone():
+            return hello(session.infos(), largest_upload=LARGEST_UPLOAD)
+
+    @app.get("/api/clips")
+    def clips() -> list[ClipInfo]:
+        with session.alone():
+            return session.infos()
+
+    @app.post("/api/clips")
+    async def upload(request: Request, name: str = "clip.bvh") -> ClipInfo:
+        data = await _body(request)
+
+        def opened() -> ClipInfo:
+            with session.alone():
+                return session.open(name, data)
+
+        return await run_in_threadpool(opened)
+
+    @app.post("/api/samples/{name}")
+    def sample(name: str) -> ClipInfo:
+        if name not in SHOWN:
+            raise MienError(f"there is no sample {name!r:.40}; there are {', '.join(SHOWN)}")
+        with session.alone():
+            return session.open(f"{name}.bvh", bvh.render(SAMPLES[name]().motion))
+
+    @app.delete("/api/clips/{identity}")
+    def close(identity: str) -> None:
+        with session.alone():
+            session.close(identity)
+
+    @app.get("/api/clips/{identity}/motion")
+    def motion(identity: str) -> Response:
+        with session.alone():
+            clip = session.clip(identity)
+            return Response(encode(clip.motion, clip.id, like=clip.figure), media_type=BINARY)
+
+    @app.get("/api/presets/{name:path}.png")
+    def picture(name: str) -> Response:
+        return Response(preset_picture(name, session.workspace.folder), media_type="image/png")
+
+
+def _edits(app: FastAPI, session: Session) -> None:
+    @app.post("/api/edit")
+    def edit(request: EditRequest) -> Response:
+        with session.turn(request, "edit"):
+            start = perf_counter()
+            clip = session.clip(request.clip)
+            after = session.edited(clip.id, request.stack, live=request.live)
+            said = {"steps": [step.edit for step in after.history], "notes": list(mended(after))}
+            seconds = perf_counter() - start
+            data = encode(after, clip.id, like=clip.figure, seconds=seconds, **said)
+            return Response(data, media_type=BINARY)
+
+    @app.post("/api/square")
+    def square(request: EditRequest) -> Response:
+        with session.turn(request, "square"):
+            clip = session.clip(request.clip)
+            return Response(encode_square(clip.motion, clip.id, like=clip.figure), media_type=BINARY)
+
+    @app.post("/api/reading")
+    def reading(request: EditRequest) -> Readings:
+        with session.turn(request, "reading"):
+            clip = session.clip(request.clip)
+            after = session.edited(clip.id, request.stack, live=request.live)
+            return answers.readings(clip.motion, after, asked(request.stack))
+
+    @app.post("/api/checks")
+    def checks(request: EditRequest) -> Checks:
+        with session.turn(request, "checks"):
+            clip = session.clip(request.clip)
+            after = session.edited(clip.id, request.stack, live=request.live)
+            return answers.checks(clip.motion, after)
+
+    @app.post("/api/curves")
+    def curves(request: CurvesRequest) -> list[Curve]:
+        with session.alone():
+            clip = session.clip(request.clip)
+            after = session.edited(clip.id, request.stack)
+            return answers.curves(clip.motion, after, request.names)
+
+    @app.post("/api/copied")
+    def copy(request: EditRequest) -> Copied:
+        with session.alone():
+            clip = session.clip(request.clip)
+            return copied(clip.name, request.stack, session.recipe(clip.id, request.stack))
+
+    @app.post("/api/export")
+    def give(request: ExportRequest) -> Response:
+        with session.alone():
+            clip = session.clip(request.clip)
+            recipe = session.recipe(clip.id, request.stack)
+            after = session.edited(clip.id, request.stack)
+        data = export(request.kind, clip.motion, after, recipe, request.options)
+        return _file(data, file_name(clip.name, request.kind), TYPES[request.kind])
+
+
+def _projects(app: FastAPI, session: Session) -> None:
+    @app.get("/api/project")
+    def project() -> Response:
+        found = session.workspace.project()
+        return JSONResponse(found) if found else JSONResponse({"error": "nothing was kept yet"}, 404)
+
+    @app.put("/api/project")
+    def keep(project: Project) -> None:
+        session.workspace.keep_project(asdict(project))
+
+    @app.post("/api/project/open")
+    async def read(request: Request) -> Project:
+        from pydantic import TypeAdapter, ValidationError
+
+        data = await _body(request)
+        try:
+            found = TypeAdapter(Project).validate_python(json.loads(data))
+        except (ValueError, ValidationError, RecursionError):
+            raise FormatError("this is no project file of mien studio") from None
+        return found
+
+
+async def _body(request: Request) -> bytes:
+    """Return the body of a request; raises ``FormatError`` where it comes too slowly."""
+    try:
+        async with asyncio.timeout(LONGEST_UPLOAD):
+            return await request.body()
+    except TimeoutError:
+        raise FormatError("the file took too long to come") from None
+
+
+def _file(data: bytes, name: str, kind: str) -> Response:
+    from urllib.parse import quote
+
+    return Response(
+        data,
+        media_type=kind,
+        headers={"Content-Disposition": f"attachment; filename*=UTF-8''{quote(name)}"},
+    )

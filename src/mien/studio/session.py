@@ -1,0 +1,151 @@
+"""What is open in the studio, and the edits that were made last: one thing is worked out at a time."""
+
+from collections import OrderedDict
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from threading import Lock
+
+from ..emotion.resolve import done
+from ..errors import BodyError, FormatError, MienError
+from ..formats import load
+from ..kinematics.body import Body
+from ..motion import Motion
+from ..recipe import Recipe
+from ..render.figure import Figure
+from .messages import ClipInfo, EditRequest, Stack
+from .stack import recipe_of
+from .workspace import Workspace
+
+KEPT = 6  # edits that are remembered, so that checks, curves and exports of one stack work it out once
+
+
+class SupersededError(MienError):
+    """A newer request of the same page has come."""
+
+
+@dataclass(frozen=True, eq=False)
+class Clip:
+    """A clip that is open."""
+
+    id: str
+    name: str
+    motion: Motion
+
+    @cached_property
+    def figure(self) -> Figure:
+        """The clip as it is drawn."""
+        return Figure.of(self.motion)
+
+    @cached_property
+    def problem(self) -> str:
+        """Why it can only be looked at; empty where it can be edited."""
+        try:
+            Body.of(self.motion)
+        except BodyError as error:
+            return str(error)
+        return ""
+
+    def info(self) -> ClipInfo:
+        """Return what the page shows of it in a list."""
+        motion = self.motion
+        joints = len(motion.skeleton)
+        return ClipInfo(self.id, self.name, len(motion), joints, motion.fps, motion.duration, self.problem)
+
+
+class Session:
+    """The clips of a workspace, read when they are asked for, and what was made of them."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self.workspace = workspace
+        self._lock = Lock()
+        self._clips: dict[str, Clip] = {}
+        self._edits: OrderedDict[tuple[str, str, bool], Motion] = OrderedDict()
+        self._turns: dict[str, int] = {}
+
+    def open(self, name: str, data: bytes) -> ClipInfo:
+        """Open a clip from the bytes of its file; one that cannot be read leaves nothing behind.
+
+        Raises ``FormatError`` with what is wrong with it.
+        """
+        known = set(self.workspace.names())
+        identity = self.workspace.keep(name, data)
+        try:
+            return self.clip(identity).info()
+        except MienError as error:
+            if identity not in known:
+                self.workspace.forget(identity)
+            text = str(error).replace(self.workspace.path(identity).name, self.workspace_name(name))
+            raise FormatError(text) from None
+
+    @staticmethod
+    def workspace_name(name: str) -> str:
+        """Return the name that a clip is kept under."""
+        from .workspace import plain_name
+
+        return plain_name(name)
+
+    def close(self, identity: str) -> None:
+        """Close a clip."""
+        self.workspace.forget(identity)
+        self._clips.pop(identity, None)
+
+    def infos(self) -> list[ClipInfo]:
+        """Return the clips that are open; one whose file was damaged meanwhile is left out."""
+        found = []
+        for identity in self.workspace.names():
+            try:
+                found.append(self.clip(identity).info())
+            except MienError:
+                continue
+        return found
+
+    def clip(self, identity: str) -> Clip:
+        """Return an open clip; raises ``FormatError`` where there is none of that id."""
+        known = self._clips.get(identity)
+        if known is None:
+            path = self.workspace.path(identity)
+            name = self.workspace.names().get(identity)
+            if name is None:
+                raise FormatError("that clip is not open any more; open its file again")
+            motion = load(path).with_(name=Path(name).stem)
+            known = self._clips[identity] = Clip(identity, name, motion)
+        return known
+
+    def recipe(self, identity: str, stack: Stack) -> Recipe:
+        """Return the recipe of a stack for a clip."""
+        return recipe_of(stack, self.clip(identity).motion)
+
+    def edited(self, identity: str, stack: Stack, *, live: bool = False) -> Motion:
+        """Return what a stack makes of a clip; ``live`` without making it safe."""
+        key = (identity, repr(stack), live)
+        if key not in self._edits:
+            recipe = self.recipe(identity, stack)
+            recipe = replace(recipe, safe=recipe.safe and not live)
+            self._edits[key] = done(self.clip(identity).motion, recipe)
+        self._edits.move_to_end(key)
+        while len(self._edits) > KEPT:
+            self._edits.popitem(last=False)
+        return self._edits[key]
+
+    @contextmanager
+    def turn(self, request: EditRequest, kind: str) -> Iterator[None]:
+        """Wait for the turn of a request; raises ``SupersededError`` where a newer one of its kind has come.
+
+        ``kind`` keeps apart what does not replace each other, such as an edit and its checks.
+        """
+        channel = f"{request.client}/{kind}"
+        if request.client:
+            self._turns[channel] = max(request.turn, self._turns.get(channel, request.turn))
+        with self._lock:
+            if request.client and request.turn < self._turns[channel]:
+                raise SupersededError("a newer request has come")
+            yield
+
+    @contextmanager
+    def alone(self) -> Iterator[None]:
+        """Wait until nothing else is worked out."""
+        with self._lock:
+            yield
