@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { bilinear, share, squareOnly } from "./blending";
+import { share, squareOnly } from "./blending";
 import * as stacks from "./stack";
 
 const tired = stacks.add(stacks.EMPTY, stacks.layerFor(stacks.EMPTY, "emotion", "tired"));
@@ -22,20 +22,6 @@ describe("share", () => {
     expect(share({ ...tired, strength: 0 }, tired)).toBeNull();
     expect(share(tired, stacks.change(tired, tired.layers[0]!.id, { name: "sad" }))).toBeNull();
     expect(share(tired, { ...tired, safe: false })).toBeNull();
-  });
-});
-
-describe("bilinear", () => {
-  it("is one at a knot and sums to one between", () => {
-    expect(bilinear(2, 0)).toEqual([
-      [0, 0, 1],
-      [0, 0, 0],
-      [0, 0, 0],
-    ]);
-    const weights = bilinear(0.25, 1.5);
-    expect(weights.flat().reduce((sum, weight) => sum + weight)).toBeCloseTo(1);
-    expect(weights[1]![0]).toBeCloseTo(0.375);
-    expect(weights[2]![1]).toBeCloseTo(0.125);
   });
 });
 

@@ -31,17 +31,6 @@ function strengths(stack: Stack): { value: number; rest: string } | null {
   };
 }
 
-/** The weights of the nine at (path, timing), each 0 to 2: `weights[row][column]`, row of timing. */
-export function bilinear(path: number, timing: number): number[][] {
-  const across = hats(path);
-  const down = hats(timing);
-  return down.map((row) => across.map((column) => row * column));
-}
-
-function hats(at: number): number[] {
-  return [0, 1, 2].map((knot) => Math.max(0, 1 - Math.abs(at - knot)));
-}
-
 /** The square's point of a stack that does nothing else, so that it can be blended from the nine. */
 export function squareOnly(stack: Stack): { path: number; timing: number } | null {
   const layers = active(stack);
