@@ -26,7 +26,8 @@ export function newer(one: Project | null, other: Project | null): Project | nul
 export function keptHere(shelf: Shelf): Project | null {
   try {
     const read = JSON.parse(shelf.getItem(PLACE) ?? "null") as Project | null;
-    return read && Array.isArray(read.clips) && read.mien_project === VERSION ? { view: {}, ...read } : null;
+    const fits = read && Array.isArray(read.clips) && read.view && read.mien_project === VERSION;
+    return fits ? read : null;
   } catch {
     return null;
   }

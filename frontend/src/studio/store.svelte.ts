@@ -43,7 +43,6 @@ export class Studio {
   readonly layer = $derived(stacks.find(this.stack, this.selected));
   readonly undoLabel = $derived(this.#history.past.length ? this.#history.present.label : "");
   readonly redoLabel = $derived(this.#history.future[0]?.label ?? "");
-  readonly canEdit = $derived(Boolean(this.clip && !this.clip.problem && this.answers.original));
 
   readonly #connection: Connection;
   readonly #keeper: Keeper;
@@ -68,6 +67,11 @@ export class Studio {
       (reach, hello) => void this.#reached(reach, hello),
     );
     api.onLost = () => void this.#connection.lost();
+  }
+
+  /** Whether there is a clip with a body that can be changed. */
+  get canEdit(): boolean {
+    return Boolean(this.clip && !this.clip.problem && this.answers.original);
   }
 
   /** Begin: learn what the server has, and go on where the work was left. */
