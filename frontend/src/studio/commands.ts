@@ -262,7 +262,7 @@ function playCommands({ studio }: Place): Command[] {
 function moodCommands({ studio }: Place): Command[] {
   return (studio.hello?.presets ?? []).map(({ name }) => ({
     id: `mood-${name}`,
-    name: `Make it ${name.replaceAll("-", " ")}`,
+    name: `Make it ${stacks.moodName(name)}`,
     group: "Mood",
     run: () => studio.setMood({ kind: "emotion", name, parameters: {} }),
     can: studio.canEdit,

@@ -161,7 +161,8 @@ export function isChanged(layer: Layer | undefined, edit: EditInfo): boolean {
 
 /** A name for people: "tired", "posture", "pleasant 0.60, calm 0.30". */
 export function title(layer: Layer): string {
-  if (layer.kind !== "place") return sentence(layer.name);
+  if (layer.kind === "emotion") return sentence(moodName(layer.name));
+  if (layer.kind === "edit") return sentence(layer.name);
   const { valence, arousal } = layer.parameters;
   return typeof valence === "number" && typeof arousal === "number"
     ? `Disc ${signed(valence)}, ${signed(arousal)}`
@@ -170,6 +171,12 @@ export function title(layer: Layer): string {
 
 function signed(value: number): string {
   return `${value < 0 ? "−" : "+"}${Math.abs(value).toFixed(2)}`;
+}
+
+/** A preset for people: "energetic sad", "sad (as in the thesis)". */
+export function moodName(name: string): string {
+  const plain = name.split("/").at(-1)!.replaceAll("-", " ");
+  return name.includes("/") ? `${plain} (as in the thesis)` : plain;
 }
 
 /** "path_length" as "Path length". */

@@ -145,7 +145,7 @@ export class Studio {
 
   /** Make the clip a mood: the one it has changes, or it gets one. */
   setMood(mood: Pick<Layer, "kind" | "name" | "parameters">, done = true): void {
-    const label = mood.kind === "place" ? "place on the disc" : sentence(mood.name).toLowerCase();
+    const label = mood.kind === "place" ? "place on the disc" : stacks.moodName(mood.name);
     const { stack, id } = stacks.setMood(this.stack, this.selected, mood);
     this.change(label, () => stack, done);
     this.selected = id;
@@ -202,6 +202,11 @@ export class Studio {
   /** How many layers a clip has, for lists. */
   layersOf(id: string): number {
     return this.#histories[id]?.present.value.layers.length ?? 0;
+  }
+
+  /** Close a dialog, unless another one is open by now. */
+  closeDialog(dialog: Dialog): void {
+    if (this.dialog === dialog) this.dialog = "";
   }
 
   keep(): void {
