@@ -88,8 +88,8 @@ export class Answers {
   edit(stack: Stack, live: boolean): void {
     if (!this.#clip || !this.original) return;
     if (isIdle(stack)) {
+      // What was made last stays, to be blended from when the strength comes up again.
       this.#edits.drop();
-      this.made = null;
       this.problem = "";
       if (!live) this.settled();
       return;

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { Api, Failed, fileName } from "./api";
+import { Api, asSentence, Failed, fileName } from "./api";
 
 function answering(answer: Response | Error): { api: Api; asked: Request[]; lost: () => number } {
   const asked: Request[] = [];
@@ -51,4 +51,10 @@ it("reads the name of a file", () => {
   expect(fileName('attachment; filename="walk_tired.bvh"')).toBe("walk_tired.bvh");
   expect(fileName("attachment; filename*=UTF-8''m%C3%BCde.bvh")).toBe("müde.bvh");
   expect(fileName(null)).toBe("mien");
+});
+
+it("begins a sentence big, and leaves the names of files", () => {
+  expect(asSentence(new Error("the file is empty"))).toBe("The file is empty");
+  expect(asSentence(new Error("walk.bvh line 3: no"))).toBe("walk.bvh line 3: no");
+  expect(asSentence("walk: no")).toBe("walk: no");
 });

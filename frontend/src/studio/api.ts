@@ -149,10 +149,10 @@ export function fileName(disposition: string | null): string {
   return /filename="?([^";]+)"?/i.exec(disposition ?? "")?.[1] ?? "mien";
 }
 
-/** One sentence for people, from whatever was thrown. */
+/** One sentence for people, from whatever was thrown; it begins big, unless with the name of a file. */
 export function asSentence(problem: unknown): string {
   const words = problem instanceof Error ? problem.message : String(problem);
-  return words.charAt(0).toUpperCase() + words.slice(1);
+  return /^[a-z]+[\s,]/.test(words) ? words.charAt(0).toUpperCase() + words.slice(1) : words;
 }
 
 /** The token of the page's address, which then leaves it, so that it is in no history and no picture. */

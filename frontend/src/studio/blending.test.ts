@@ -16,9 +16,10 @@ describe("share", () => {
     expect(share(half, { ...half, strength: 0.5 })).toBeCloseTo(0.5);
   });
 
-  it("is not to be had where one of two layers changes, or it grows, or begins at nothing", () => {
+  it("is not to be had where one of two layers changes, or it grows too far, or begins at nothing", () => {
     expect(share(both, stacks.change(both, both.layers[0]!.id, { strength: 0.5 }))).toBeNull();
-    expect(share(tired, { ...tired, strength: 1.5 })).toBeNull();
+    expect(share(tired, { ...tired, strength: 1.2 })).toBeCloseTo(1.2);
+    expect(share(tired, { ...tired, strength: 1.9 })).toBeNull();
     expect(share({ ...tired, strength: 0 }, tired)).toBeNull();
     expect(share(tired, stacks.change(tired, tired.layers[0]!.id, { name: "sad" }))).toBeNull();
     expect(share(tired, { ...tired, safe: false })).toBeNull();

@@ -2,9 +2,12 @@
 import type { Stack } from "../messages";
 import { active } from "./stack";
 
+/** As far beyond a motion as a blend still looks right; the server's answer follows anyway. */
+const FURTHEST = 1.5;
+
 /**
  * How much of the edited motion, made by `made`, shows what `wanted` asks for, and the rest is the original.
- * Null where it cannot be had by blending: where more than one strength differs, or it grows.
+ * Null where it cannot be had by blending: where more than one strength differs, or it grows too far.
  */
 export function share(made: Stack, wanted: Stack): number | null {
   if (made === wanted) return 1;
@@ -12,7 +15,7 @@ export function share(made: Stack, wanted: Stack): number | null {
   const after = strengths(wanted);
   if (!before || !after || before.rest !== after.rest || before.value <= 0) return null;
   const part = after.value / before.value;
-  return part <= 1 ? part : null;
+  return part <= FURTHEST ? part : null;
 }
 
 /** The one strength of a stack (the whole's times its only active layer's), and all else as text. */

@@ -12,6 +12,8 @@ export type Group = "File" | "Edit" | "View" | "Play" | "Mood" | "Add layer" | "
 export interface Command {
   id: string;
   name: string;
+  /** What it is called where it does not matter what it is done to; as the name, where it is not said. */
+  general?: string;
   group: Group;
   run: () => void;
   /** Whether it can be done now; always, where it is not said. */
@@ -90,6 +92,7 @@ function editCommands({ studio }: Place): Command[] {
   return [
     {
       id: "undo",
+      general: "Undo",
       name: studio.undoLabel ? `Undo: ${studio.undoLabel}` : "Undo",
       group: "Edit",
       run: () => studio.undo(),
@@ -97,6 +100,7 @@ function editCommands({ studio }: Place): Command[] {
     },
     {
       id: "redo",
+      general: "Redo",
       name: studio.redoLabel ? `Redo: ${studio.redoLabel}` : "Redo",
       group: "Edit",
       run: () => studio.redo(),
@@ -104,14 +108,23 @@ function editCommands({ studio }: Place): Command[] {
     },
     {
       id: "bypass",
+      general: "Bypass the layer",
       name: layer?.on === false ? `Switch on ${named}` : `Bypass ${named}`,
       group: "Edit",
       run: on(`bypass ${named}`, stacks.bypass),
       can,
     },
-    { id: "solo", name: `Solo ${named}`, group: "Edit", run: on(`solo ${named}`, stacks.solo), can },
+    {
+      id: "solo",
+      name: `Solo ${named}`,
+      general: "Solo the layer",
+      group: "Edit",
+      run: on(`solo ${named}`, stacks.solo),
+      can,
+    },
     {
       id: "duplicate",
+      general: "Duplicate the layer",
       name: `Duplicate ${named}`,
       group: "Edit",
       run: on(`duplicate ${named}`, stacks.duplicate),
@@ -132,7 +145,14 @@ function editCommands({ studio }: Place): Command[] {
       run: on(`move ${named}`, (stack, id) => stacks.move(stack, id, at + 1)),
       can: can && at < studio.stack.layers.length - 1,
     },
-    { id: "delete", name: `Delete ${named}`, group: "Edit", run: () => studio.removeLayer(studio.selected), can },
+    {
+      id: "delete",
+      name: `Delete ${named}`,
+      general: "Delete the layer",
+      group: "Edit",
+      run: () => studio.removeLayer(studio.selected),
+      can,
+    },
     {
       id: "clear",
       name: "Remove all layers",
@@ -244,9 +264,9 @@ function playCommands({ studio }: Place): Command[] {
     play("previous-contact", "Previous foot contact", () => stepContact(playback, contacts(), -1)),
     play("range-start", "Go to the start", () => playback.set({ time: playback.stretch[0] })),
     play("range-end", "Go to the end", () => playback.set({ time: playback.stretch[1] })),
-    play("play-backward", "Play backward, again: faster", () => playback.shuttle(-1)),
+    play("play-backward", "Play backward, each time faster", () => playback.shuttle(-1)),
     play("stop", "Stop", () => playback.shuttle(0)),
-    play("play-forward", "Play forward, again: faster", () => playback.shuttle(1)),
+    play("play-forward", "Play forward, each time faster", () => playback.shuttle(1)),
     play("loop-in", "Loop from here", () => range({ start: playback.time })()),
     play("loop-out", "Loop to here", () => range({ end: playback.time })()),
     play("loop-clear", "Loop over all", () => playback.set({ range: null, loop: "all" })),

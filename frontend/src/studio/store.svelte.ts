@@ -108,7 +108,7 @@ export class Studio {
   async select(id: string): Promise<void> {
     this.current = id;
     this.selected = this.stack.layers.at(-1)?.id ?? "";
-    this.playback.set({ playing: false, time: 0, range: null });
+    this.playback.set({ playing: false, time: 0, range: null, ...(id ? {} : { duration: 0 }) });
     try {
       await this.answers.show(id);
     } catch (problem) {
@@ -186,6 +186,12 @@ export class Studio {
     Object.assign(this.view, fields);
     if (fields.curves) this.answers.measure(this.stack, this.view.curves);
     this.keep();
+  }
+
+  /** Show the curve of a joint, in place of that of another; null takes it away. */
+  pick(joint: string | null): void {
+    const others = this.view.curves.filter((name) => !name.startsWith("joint:"));
+    this.show({ curves: joint ? [...others, `joint:${joint}`] : others });
   }
 
   /** All that is worth keeping. */
