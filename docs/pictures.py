@@ -227,7 +227,7 @@ def presets() -> "Image":
 
 
 def disc() -> "Image":
-    """Eight points of the disc: a walk and a wave moved there, over what they were made from."""
+    """Eight points of the disc: a walk, a wave and a dance moved there, over what they were made from."""
     rim = {
         "valence +": (0.7, 0.0),
         "both +": (0.5, 0.5),
@@ -239,9 +239,9 @@ def disc() -> "Image":
         "pleasant, calm": (0.5, -0.5),
     }
     sheets = []
-    for calm in (walk(), samples.wave().motion):
+    for calm in (walk(), samples.wave().motion, samples.dance(seconds=4.0).motion):
         rows = {name: mien.toward(calm, to=place) for name, place in rim.items()}
-        sheets.append(render.compare(rows, against=calm, poses=4, width=1000))
+        sheets.append(render.compare(rows, against=calm, poses=4, width=800))
     return beside(*sheets)
 
 

@@ -8,6 +8,7 @@ continuous motion is sampled whatever the frame rate.
 
 from collections.abc import Callable, Mapping
 
+from .dancing import dance
 from .fixtures import pendulum, spin
 from .gait import tired_walk, turn, walk
 from .gestures import knock, punch, still, wave
@@ -19,6 +20,7 @@ __all__ = [
     "SAMPLES",
     "SKELETONS",
     "Sample",
+    "dance",
     "jump",
     "knock",
     "pendulum",
@@ -32,6 +34,6 @@ __all__ = [
 ]
 
 SAMPLES: Mapping[str, Callable[..., Sample]] = {
-    f.__name__: f for f in (walk, tired_walk, turn, still, knock, wave, punch, jump, pendulum, spin)
+    f.__name__: f for f in (walk, tired_walk, turn, still, knock, wave, punch, jump, dance, pendulum, spin)
 }
 SKELETONS = tuple(RIGS)

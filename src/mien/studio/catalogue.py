@@ -12,7 +12,7 @@ from ..samples import SAMPLES
 from .messages import ClipInfo, EditInfo, Hello, ParameterInfo, PresetInfo, ValueKind, Word
 
 # Samples worth a look; the others are fixtures of tests.
-SHOWN = ("walk", "wave", "knock", "jump", "punch", "tired_walk", "turn")
+SHOWN = ("walk", "wave", "dance", "knock", "jump", "punch", "tired_walk", "turn")
 KINDS: dict[type, ValueKind] = {float: "number", int: "whole", bool: "flag", str: "text", tuple: "list"}
 
 

@@ -3,7 +3,7 @@
 import socket
 import webbrowser
 from dataclasses import dataclass
-from threading import Timer
+from threading import Thread, Timer
 
 import uvicorn
 
@@ -27,6 +27,7 @@ class Server:
 
     def run(self, *, browser: bool) -> None:
         """Answer requests until Ctrl-C; with ``browser`` the page is opened."""
+        Thread(target=_warm_up, daemon=True).start()
         if browser:
             timer = Timer(WAIT, webbrowser.open, [self.address])
             timer.daemon = True
@@ -46,6 +47,14 @@ def serve(workspace: Workspace, *, host: str = "127.0.0.1", port: int = 0, usual
     name = f"[{host}]" if ":" in host else host
     app = make_app(session, token=token, hosts=hosts_of(host, number))
     return Server(session, f"http://{name}:{number}/#token={token}", app, listener)
+
+
+def _warm_up() -> None:
+    """Do an edit once, so that what is imported when it is needed is there when the first slider moves."""
+    from ..emotion.resolve import edit
+    from ..samples import walk
+
+    edit(walk(seconds=1.0).motion, "sad")
 
 
 def _listener(host: str, port: int, usual: int) -> socket.socket:
