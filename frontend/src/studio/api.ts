@@ -2,7 +2,7 @@
 import type * as messages from "../messages";
 import { decode, unpack, type Clip } from "../wire";
 
-/** `lost`: no connection; `late`: no answer in time; `old`: overtaken by a newer request; `said`: the server's. */
+/** No connection; no answer in time; overtaken by a newer request; the server's own; the key is not valid. */
 export type FailureKind = "lost" | "late" | "old" | "said" | "shut";
 
 export class Failed extends Error {

@@ -10,7 +10,11 @@ const all = ["Redo: add sad", "Undo: add sad", "Make it sad", "Sadness (not ther
 );
 
 it("finds all words anywhere, beginnings first, and nothing that cannot be done", () => {
-  expect(search(all, "sad").map(({ name }) => name)).toEqual(["Redo: add sad", "Undo: add sad", "Make it sad"]);
+  expect(search(all, "sad").map(({ name }) => name)).toEqual([
+    "Redo: add sad",
+    "Undo: add sad",
+    "Make it sad",
+  ]);
   expect(search(all, "so")[0]!.name).toBe("Solo");
   expect(search(all, "make sad").map(({ name }) => name)).toEqual(["Make it sad"]);
   expect(search(all, "(").map(({ name }) => name)).toEqual([]);

@@ -49,7 +49,13 @@ function fileCommands({ studio, pickFiles, stage }: Place): Command[] {
   const samples = studio.hello?.samples ?? [];
   return [
     { id: "open", name: "Open clips or a project…", group: "File", run: pickFiles },
-    { id: "save", name: "Save the project as a file", group: "File", run: () => saveProject(studio), can: !!clip },
+    {
+      id: "save",
+      name: "Save the project as a file",
+      group: "File",
+      run: () => saveProject(studio),
+      can: !!clip,
+    },
     { id: "export", name: "Export…", group: "File", run: () => (studio.dialog = "export"), can: !!clip },
     {
       id: "export-bvh",
@@ -58,7 +64,13 @@ function fileCommands({ studio, pickFiles, stage }: Place): Command[] {
       run: () => void exportFile(studio, "bvh", {}),
       can: studio.canEdit,
     },
-    { id: "screenshot", name: "Save a picture of the viewport", group: "File", run: stage.picture, can: !!clip },
+    {
+      id: "screenshot",
+      name: "Save a picture of the viewport",
+      group: "File",
+      run: stage.picture,
+      can: !!clip,
+    },
     {
       id: "close",
       name: "Close the clip",

@@ -114,7 +114,8 @@ export function isTaken(target: EventTarget | null, press: Press): boolean {
     ["slider", "radio", "tab", "option", "listbox", "menuitem", "menu", "grid", "separator"].includes(role);
   if (moves && (OWN.has(press.key) || PRESSING.has(press.key))) return true;
   if (name === "SELECT" && press.key.length === 1) return true;
-  const presses = ["BUTTON", "A", "SUMMARY"].includes(name) || ["button", "switch", "checkbox"].includes(role);
+  const presses =
+    ["BUTTON", "A", "SUMMARY"].includes(name) || ["button", "switch", "checkbox"].includes(role);
   return presses && PRESSING.has(press.key);
 }
 

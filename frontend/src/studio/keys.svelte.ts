@@ -18,7 +18,10 @@ export class Keys {
 
   /** Give a command one key, which is taken from any other. */
   bind(command: string, key: string): void {
-    const others = Object.entries(this.#changes).map(([name, keys]) => [name, keys.filter((old) => old !== key)]);
+    const others = Object.entries(this.#changes).map(([name, keys]) => [
+      name,
+      keys.filter((old) => old !== key),
+    ]);
     this.#set({ ...Object.fromEntries(others), [command]: [key] });
   }
 

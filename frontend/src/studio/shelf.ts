@@ -50,7 +50,8 @@ export async function keepFile(id: string, name: string, data: Blob): Promise<vo
   if (data.size > LARGEST) return;
   try {
     await within("readwrite", (files) => files.put({ id, name, data, opened: Date.now() } satisfies Kept));
-    for (const old of (await recent()).slice(ROOM)) await within("readwrite", (files) => files.delete(old.id));
+    for (const old of (await recent()).slice(ROOM))
+      await within("readwrite", (files) => files.delete(old.id));
   } catch {
     return;
   }

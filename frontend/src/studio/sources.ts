@@ -1,4 +1,4 @@
-// What the viewport plays: the last answer, or what the page can blend at once while a newer one is on its way.
+// What the viewport plays: the last answer, or what can be blended at once while a newer one is on its way.
 import type { Stack } from "../messages";
 import { blended, clipSource, latticeWeights, type PoseSource } from "../motion/blend";
 import type { Clip } from "../wire";

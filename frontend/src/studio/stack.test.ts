@@ -3,10 +3,7 @@ import type { Stack } from "../messages";
 import * as stacks from "./stack";
 
 function made(...names: string[]): Stack {
-  return names.reduce(
-    (stack, name) => stacks.add(stack, stacks.layerFor(stack, "edit", name)),
-    stacks.EMPTY,
-  );
+  return names.reduce((stack, name) => stacks.add(stack, stacks.layerFor(stack, "edit", name)), stacks.EMPTY);
 }
 
 function names(stack: Stack): string[] {

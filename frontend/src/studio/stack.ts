@@ -39,7 +39,10 @@ export function add(stack: Stack, layer: Layer, at = stack.layers.length): Stack
 }
 
 export function remove(stack: Stack, id: string): Stack {
-  return withLayers(stack, stack.layers.filter((layer) => layer.id !== id));
+  return withLayers(
+    stack,
+    stack.layers.filter((layer) => layer.id !== id),
+  );
 }
 
 /** Move a layer to a place in the list, kept inside it. */
@@ -88,7 +91,15 @@ export function reset(stack: Stack, id: string): Stack {
   const layer = find(stack, id);
   if (!layer) return stack;
   const parameters = layer.kind === "place" ? layer.parameters : {};
-  return change(stack, id, { parameters, strength: 1, parts: [], span: null, ease: 0.25, on: true, solo: false });
+  return change(stack, id, {
+    parameters,
+    strength: 1,
+    parts: [],
+    span: null,
+    ease: 0.25,
+    on: true,
+    solo: false,
+  });
 }
 
 /**

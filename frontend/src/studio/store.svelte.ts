@@ -9,7 +9,6 @@ import * as histories from "./history";
 import { Notices } from "./notices.svelte";
 import { Keeper, Tabs, keptHere, newer, type Keeping } from "./project";
 import * as stacks from "./stack";
-import { sentence } from "./stack";
 import { freshView, readView, type View } from "./view";
 
 type StackHistory = histories.History<Stack>;
@@ -99,7 +98,9 @@ export class Studio {
     if (project) this.view = readView(project.view);
     const open = (id: string | undefined) => this.clips.some((clip) => clip.id === id);
     // A clip that the project does not know was just given on the command line: that is what is wanted.
-    const fresh = selectGiven ? this.clips.find((clip) => !given.some(({ id }) => id === clip.id)) : undefined;
+    const fresh = selectGiven
+      ? this.clips.find((clip) => !given.some(({ id }) => id === clip.id))
+      : undefined;
     const wanted = fresh?.id ?? (open(project?.current) ? project!.current : this.clips[0]?.id);
     await this.select(wanted ?? "");
   }
@@ -153,7 +154,8 @@ export class Studio {
 
   /** Set parameters of an edit by its own sliders, which bring its layer with them. */
   setEdit(edit: string, parameters: Layer["parameters"], done = true): void {
-    const label = `${sentence(edit).toLowerCase()} ${Object.keys(parameters).join(", ").replaceAll("_", " ")}`;
+    const names = Object.keys(parameters).join(", ");
+    const label = `${edit} ${names}`.replaceAll("_", " ");
     const { stack, id } = stacks.setEdit(this.stack, this.selected, edit, parameters);
     this.change(label, () => stack, done);
     this.selected = id;
@@ -169,7 +171,9 @@ export class Studio {
   removeLayer(id: string): void {
     const at = this.stack.layers.findIndex((layer) => layer.id === id);
     if (at < 0) return;
-    this.change(`delete ${stacks.title(this.stack.layers[at]!).toLowerCase()}`, (stack) => stacks.remove(stack, id));
+    this.change(`delete ${stacks.title(this.stack.layers[at]!).toLowerCase()}`, (stack) =>
+      stacks.remove(stack, id),
+    );
     this.selected = (this.stack.layers[at] ?? this.stack.layers.at(-1))?.id ?? "";
   }
 

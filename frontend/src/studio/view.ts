@@ -22,7 +22,8 @@ export const MODES: readonly { mode: Mode; label: string; hint: string }[] = [
   { mode: "wipe", label: "Wipe", hint: "original left of a line, edited right of it" },
 ];
 
-export type Toggle = "treadmill" | "follow" | "trails" | "footprints" | "names" | "grid" | "neutral" | "phase";
+export type Toggle =
+  "treadmill" | "follow" | "trails" | "footprints" | "names" | "grid" | "neutral" | "phase";
 
 export const TOGGLES: readonly { toggle: Toggle; label: string; hint: string }[] = [
   { toggle: "treadmill", label: "In place", hint: "walk on the spot, so that different speeds stay in view" },
@@ -32,7 +33,11 @@ export const TOGGLES: readonly { toggle: Toggle; label: string; hint: string }[]
   { toggle: "names", label: "Names", hint: "names of joints" },
   { toggle: "grid", label: "Grid", hint: "a grid of metres on the floor" },
   { toggle: "neutral", label: "One colour", hint: "left and right without colours of their own" },
-  { toggle: "phase", label: "In step", hint: "where the edit takes longer, meet the original at the same step" },
+  {
+    toggle: "phase",
+    label: "In step",
+    hint: "where the edit takes longer, meet the original at the same step",
+  },
 ];
 
 export function freshView(): View {
