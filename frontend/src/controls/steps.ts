@@ -22,7 +22,8 @@ export function snap(value: number, { low, high, step }: Range): number {
 /** The value after a key, or null where the key means nothing here. */
 export function stepped(key: string, shift: boolean, value: number, range: Range): number | null {
   const by = range.step * (shift ? SLOW : 1);
-  const moved = (steps: number) => within(Number((value + steps * by).toPrecision(12)), range.low, range.high);
+  const moved = (steps: number) =>
+    within(Number((value + steps * by).toPrecision(12)), range.low, range.high);
   switch (key) {
     case "ArrowRight":
     case "ArrowUp":
@@ -57,7 +58,7 @@ export class Drag {
     this.#lastY = event.clientY;
   }
 
-  /** The place now; `perX`, `perY`: units a pixel. Not held in any range, so that the hand finds its way back. */
+  /** The place now; `perX`, `perY`: units a pixel. Held in no range, so that the hand finds its way back. */
   to(
     event: { clientX: number; clientY: number; altKey: boolean; shiftKey: boolean },
     perX: number,

@@ -1,4 +1,4 @@
-// A hint beside what the pointer is on or the keyboard has reached. It adds nothing that is not in the name or
+// A hint beside what the pointer is on or the keyboard has reached. It adds nothing to the name and the
 // description of the control, so screen readers are not told of it.
 import type { Attachment } from "svelte/attachments";
 

@@ -16,12 +16,12 @@ const plain = {
 } satisfies Partial<ParameterInfo>;
 
 export const PARAMETERS: ParameterInfo[] = [
-  { ...plain, name: "hips_height", kind: "number", doc: "hips higher (+) or lower (−)", low: -0.5, high: 0.1,
-    neutral: 0, unit: "leg lengths" },
+  { ...plain, name: "hips_height", kind: "number", doc: "hips higher (+) or lower (−)", low: -0.5,
+    high: 0.1, neutral: 0, unit: "leg lengths" },
   { ...plain, name: "seed", kind: "whole", doc: "which wandering: another number, another one", low: 0 },
-  { ...plain, name: "fps", kind: "number", doc: "new rate; none keeps it", default: null, low: 0.001, high: 10000,
-    unit: "frames a second", optional: true },
-  { ...plain, name: "rests", kind: "flag", doc: "added acceleration also lengthens long rests", default: true },
+  { ...plain, name: "fps", kind: "number", doc: "new rate; none keeps it", default: null, low: 0.001,
+    high: 10000, unit: "frames a second", optional: true },
+  { ...plain, name: "rests", kind: "flag", doc: "acceleration also lengthens long rests", default: true },
   { ...plain, name: "mode", kind: "choice", doc: "blend the maps of time, or the four motions",
     default: "timemap", choices: ["timemap", "bilinear"] },
   { ...plain, name: "method", kind: "choice", doc: "how the change is added to each joint",

@@ -41,7 +41,9 @@ export function nearest(words: readonly Word[], [valence, arousal]: Point): Word
   return best;
 }
 
-export function distance(one: { valence: number; arousal: number }, two: { valence: number; arousal: number }): number {
+type Somewhere = Pick<Word, "valence" | "arousal">;
+
+export function distance(one: Somewhere, two: Somewhere): number {
   return Math.hypot(one.valence - two.valence, one.arousal - two.arousal);
 }
 
@@ -66,7 +68,7 @@ function said(value: number, below: string, above: string): string {
   return `${shown(value, Math.abs(value * 10 - Math.round(value * 10)) < 1e-6 ? 1 : 2)} ${name}`;
 }
 
-/** The point after a key, or null where it means nothing here: left and right valence, up and down arousal. */
+/** The point after a key, or null where it means nothing: left and right valence, up and down arousal. */
 export function keyed(key: string, shift: boolean, [valence, arousal]: Point, axis: "x" | "y"): Point | null {
   const by = STEP * (shift ? SLOW : 1);
   const along = (value: number, other: number, step: number) =>

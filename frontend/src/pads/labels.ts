@@ -26,7 +26,9 @@ const LETTER = 0.56; // mean width of a letter, in heights: a little more than m
 const WAYS = 16;
 
 /** Place the words within `frame`, `size` pixels high; `taken` are boxes to keep clear of. */
-export function layout(spots: readonly Spot[], size: number, frame: Box, taken: readonly Box[] = []): Label[] {
+export function layout(
+  spots: readonly Spot[], size: number, frame: Box, taken: readonly Box[] = [],
+): Label[] {
   const dots = spots.map(({ x, y }) => around(x, y, 3));
   const boxes = [...taken];
   const out = new Map<Spot, Label>();

@@ -56,5 +56,6 @@ export function keyed(key: string, shift: boolean, [path, timing]: Point, axis: 
 /** Caught by one of the nine where the hand is near it, so that they can be met exactly. */
 export function caught([path, timing]: Point, reach = 0.06): Point {
   const near = nearest([path, timing]);
-  return Math.hypot(near.path - path, near.timing - timing) < reach ? [near.path, near.timing] : [path, timing];
+  const caught = Math.hypot(near.path - path, near.timing - timing) < reach;
+  return caught ? [near.path, near.timing] : [path, timing];
 }

@@ -12,8 +12,8 @@ export function read(playback: Playback): Clock {
 
 /** The next speed up (1) or down (-1) of those on offer; at the end the same. */
 export function nextSpeed(speed: number, way: 1 | -1): number {
-  const others = way > 0 ? SPEEDS.filter((one) => one > speed + 1e-9) : SPEEDS.filter((one) => one < speed - 1e-9);
-  return (way > 0 ? others[0] : others.at(-1)) ?? speed;
+  const beyond = SPEEDS.filter((one) => (one - speed) * way > 1e-9);
+  return (way > 0 ? beyond[0] : beyond.at(-1)) ?? speed;
 }
 
 const LOOPS = { all: "range", range: "off", off: "all" } as const;

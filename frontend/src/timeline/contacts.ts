@@ -40,3 +40,13 @@ export function inView(found: Run[], view: View, width: number): Run[] {
   }
   return out;
 }
+
+/** The path of bars over runs, `top` to `bottom` pixels; none thinner than a pixel. */
+export function bars(found: Run[], px: (time: number) => number, top: number, bottom: number): string {
+  return found
+    .map(({ start, end }) => {
+      const left = px(start).toFixed(1);
+      return `M${left} ${top}h${Math.max(px(end) - px(start), 1).toFixed(1)}V${bottom}H${left}Z`;
+    })
+    .join("");
+}

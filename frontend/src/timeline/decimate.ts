@@ -1,5 +1,7 @@
-// Curves of many frames on few pixels: lowest and highest value of each column, so no peak is lost.
+// Curves of many frames on few pixels: a line where frames are few, else the lowest and highest of each column.
 import type { View } from "./view";
+
+const DENSE = 2; // frames a pixel from which a line would only be a blot
 
 /** The first index whose time is at or after `time`. */
 export function indexAt(times: ArrayLike<number>, time: number): number {
@@ -13,33 +15,49 @@ export function indexAt(times: ArrayLike<number>, time: number): number {
   return low;
 }
 
-/**
- * The points to draw, as (pixel, value) one after the other: all of them where they are few, else the first, the
- * lowest, the highest and the last of each column, in their order. One point beyond each edge is kept.
- */
-export function decimate(times: ArrayLike<number>, values: ArrayLike<number>, view: View, width: number): number[] {
-  const from = Math.max(indexAt(times, view.start) - 1, 0);
-  const to = Math.min(indexAt(times, view.end) + 1, times.length);
+/** The frames in view, to both edges and beyond. */
+function stretch(times: ArrayLike<number>, view: View): [number, number] {
+  return [Math.max(indexAt(times, view.start) - 1, 0), Math.min(indexAt(times, view.end) + 1, times.length)];
+}
+
+export function isDense(times: ArrayLike<number>, view: View, width: number): boolean {
+  const [from, to] = stretch(times, view);
+  return to - from > DENSE * width;
+}
+
+/** The points of a line, as (pixel, value) one after the other. */
+export function points(
+  times: ArrayLike<number>, values: ArrayLike<number>, view: View, width: number,
+): number[] {
+  const [from, to] = stretch(times, view);
   const scale = width / (view.end - view.start);
   const out: number[] = [];
-  if (to - from <= 2 * width) {
-    for (let i = from; i < to; i++) out.push((times[i] - view.start) * scale, values[i]);
-    return out;
-  }
-  let i = from;
-  while (i < to) {
-    const column = Math.floor((times[i] - view.start) * scale);
-    const first = i;
-    let low = i;
-    let high = i;
-    for (; i < to && Math.floor((times[i] - view.start) * scale) === column; i++) {
-      if (values[i] < values[low]) low = i;
-      if (values[i] > values[high]) high = i;
-    }
-    const kept = [first, Math.min(low, high), Math.max(low, high), i - 1];
-    kept.forEach((k, n) => {
-      if (n === 0 || k !== kept[n - 1]) out.push((times[k] - view.start) * scale, values[k]);
-    });
+  for (let i = from; i < to; i++) out.push((times[i] - view.start) * scale, values[i]);
+  return out;
+}
+
+/** What a column of pixels has to show: no peak is lost, were it one frame long. */
+export interface Column {
+  pixel: number;
+  low: number;
+  high: number;
+}
+
+/** The lowest and highest value of every column that has frames. What is no number is left out. */
+export function columns(
+  times: ArrayLike<number>, values: ArrayLike<number>, view: View, width: number,
+): Column[] {
+  const [from, to] = stretch(times, view);
+  const scale = width / (view.end - view.start);
+  const out: Column[] = [];
+  for (let i = from; i < to; i++) {
+    const value = values[i];
+    if (!Number.isFinite(value)) continue;
+    const pixel = Math.floor((times[i] - view.start) * scale);
+    const last = out.at(-1);
+    if (last?.pixel !== pixel) out.push({ pixel, low: value, high: value });
+    else if (value < last.low) last.low = value;
+    else if (value > last.high) last.high = value;
   }
   return out;
 }
@@ -59,16 +77,31 @@ export function extent(...series: ArrayLike<number>[]): [number, number] {
   return [low - room, high + room];
 }
 
-/** The path of points from `decimate`, `height` pixels high; gaps where a value is no number. */
-export function path(points: number[], low: number, high: number, height: number, margin = 2): string {
+/** Where a value stands in a lane. */
+export type Height = (value: number) => number;
+
+export function heights(low: number, high: number, height: number, margin = 2): Height {
+  return (value) => height - margin - ((value - low) / (high - low)) * (height - 2 * margin);
+}
+
+/** The path of `points`; gaps where a value is no number. */
+export function line(found: number[], y: Height): string {
   let out = "";
   let pen = false;
-  for (let i = 0; i < points.length; i += 2) {
-    const y = height - margin - ((points[i + 1] - low) / (high - low)) * (height - 2 * margin);
-    if (Number.isFinite(y)) out += `${pen ? "L" : "M"}${points[i].toFixed(1)} ${y.toFixed(1)}`;
-    pen = Number.isFinite(y);
+  for (let i = 0; i < found.length; i += 2) {
+    const at = y(found[i + 1]);
+    if (Number.isFinite(at)) out += `${pen ? "L" : "M"}${found[i].toFixed(1)} ${at.toFixed(1)}`;
+    pen = Number.isFinite(at);
   }
   return out;
+}
+
+/** The outline of `columns`: along the highest values and back along the lowest. */
+export function band(found: Column[], y: Height): string {
+  if (!found.length) return "";
+  const there = found.map(({ pixel, high }) => `${pixel + 0.5} ${(y(high) - 0.5).toFixed(1)}`);
+  const back = found.map(({ pixel, low }) => `${pixel + 0.5} ${(y(low) + 0.5).toFixed(1)}`);
+  return `M${there.join("L")}L${back.reverse().join("L")}Z`;
 }
 
 /** The value at a moment, between the two nearest points; null where there is none. */

@@ -12,6 +12,7 @@ export interface Held {
 export function hold(take: (event: PointerEvent) => Held | null): Attachment<HTMLElement | SVGElement> {
   return (element) => {
     let held: Held | null = null;
+    let moved = false; // a mere press is not a change
     let drag: Drag;
     const down = (event: PointerEvent) => {
       if (event.button !== 0 || !(held = take(event))) return;
@@ -19,11 +20,16 @@ export function hold(take: (event: PointerEvent) => Held | null): Attachment<HTM
       event.stopPropagation();
       element.focus({ preventScroll: true });
       drag = new Drag([0, 0], event);
+      moved = false;
       element.setPointerCapture(event.pointerId);
     };
-    const move = (event: PointerEvent) => held?.move(...drag.to(event, 1, 1));
+    const move = (event: PointerEvent) => {
+      if (!held) return;
+      moved = true;
+      held.move(...drag.to(event, 1, 1));
+    };
     const up = () => {
-      held?.end();
+      if (moved) held?.end();
       held = null;
     };
     const on = Object.entries({ pointerdown: down, pointermove: move, pointerup: up, pointercancel: up });

@@ -12,8 +12,8 @@ export function keysOf(value: Varying): Key[] {
 }
 
 /**
- * The value at moments in seconds: the monotone cubic of Fritsch & Butland (1984) through the keys, level before
- * the first and after the last, as `mien.curve.evaluate`. Between keys it never goes beyond them.
+ * The value at moments in seconds: the monotone cubic of Fritsch & Butland (1984) through the keys, level
+ * before the first and after the last, as `mien.curve.evaluate`. Between keys it never goes beyond them.
  */
 export function evaluate(value: Varying, at: ArrayLike<number>): Float64Array {
   const out = new Float64Array(at.length);
@@ -63,7 +63,7 @@ export function add(value: Varying, time: number, amount: number): number[][] {
   return [...others, [time, amount] as Key].sort((a, b) => a[0] - b[0]);
 }
 
-/** Move a key; it stops before its neighbours (`apart` seconds), at 0 and at the end, and between 0 and `MOST`. */
+/** Move a key; it stops `apart` seconds before its neighbours, at 0, at the end, and at 0 and `MOST`. */
 export function move(
   value: Varying, index: number, time: number, amount: number, duration: number, apart = 0.001,
 ): number[][] {

@@ -7,7 +7,7 @@ export interface Timed {
   ease: number;
 }
 
-/** Move one grip of a layer to a moment (`body`: by seconds). Both ends at the clip's: null, the whole clip. */
+/** Move one grip to a moment (`body`: by seconds). Both ends at those of the clip: null, all of it. */
 export function moved(now: Timed, grip: Grip, to: number, duration: number, least: number): Timed {
   let [start, end] = now.span ?? [0, duration];
   let ease = now.ease;

@@ -46,6 +46,7 @@ export function follow(view: View, time: number, duration: number): View {
 function held(view: View, duration: number): View {
   const whole = all(duration);
   const length = Math.min(view.end - view.start, whole.end - whole.start);
+  if (length > whole.end - whole.start - 1e-9) return whole;
   const start = Math.min(Math.max(view.start, whole.start), whole.end - length);
   return { start, end: start + length };
 }
@@ -58,7 +59,9 @@ export interface Tick {
 const STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600];
 
 /** Ticks of a ruler: the step between those with words, and all of them, five or so to a word. */
-export function ticks(view: View, width: number, duration: number, apart = 64): { step: number; ticks: Tick[] } {
+export function ticks(
+  view: View, width: number, duration: number, apart = 64,
+): { step: number; ticks: Tick[] } {
   const rough = ((view.end - view.start) / Math.max(width, 1)) * apart;
   const step = STEPS.find((one) => one >= rough) ?? STEPS.at(-1)!;
   const lead = Number(String(step).replace(/[0.]/g, "")[0]);
