@@ -18,6 +18,7 @@ from .analysis.laban import Features, features
 from .curve import Varying, values
 from .edits.order import merged
 from .edits.registry import EDITS
+from .emotion.circumplex import clamp
 from .emotion.files import read_provenance, sidecar_of
 from .emotion.model import load_model
 from .emotion.reading import Reading, read
@@ -124,7 +125,10 @@ class Subject:
 
 @dataclass(frozen=True)
 class Analysis:
-    """What was measured in a file, or the sentence that says what went wrong."""
+    """What was measured in a file, or the sentence that says what went wrong.
+
+    ``neutral`` is the clip that the reading is against, None where it is a guess.
+    """
 
     source: Path
     frames: int = 0
@@ -132,6 +136,7 @@ class Analysis:
     features: Features | None = None
     effort: Effort | None = None
     reading: Reading | None = None
+    neutral: Path | None = None
     error: str = ""
     unexpected: bool = False
 
@@ -145,7 +150,8 @@ def analyse_file(subject: Subject) -> Analysis:
     """Read one file and work out what it expresses, its Laban features and Effort factors."""
     try:
         motion = opened(subject.source, body=subject.body, **subject.read)
-        reading = _reading(subject, motion)
+        before = subject.neutral or (source_of(subject.source) if subject.of_source else None)
+        reading = _reading(subject, motion, before)
         laban = features(motion) if subject.laban else None
         factors = effort(motion) if subject.laban else None
     except (MienError, OSError, MemoryError) as error:
@@ -154,14 +160,34 @@ def analyse_file(subject: Subject) -> Analysis:
         if os.environ.get("MIEN_DEBUG"):
             raise
         return Analysis(subject.source, error=sentence(error), unexpected=True)
-    return Analysis(subject.source, len(motion), motion.duration, laban, factors, reading)
+    return Analysis(
+        subject.source, len(motion), motion.duration, laban, factors, reading, before and _plain(before)
+    )
 
 
-def _reading(subject: Subject, motion: Motion) -> Reading:
-    before = subject.neutral or (source_of(subject.source) if subject.of_source else None)
-    neutral = opened(before, body=subject.body, **subject.read) if before else None
+def _plain(path: Path) -> Path:
+    """Return a path without steps up and down again, as it is told, where that is the same file."""
+    plain = Path(os.path.normpath(path))
+    return plain if plain.exists() and plain.samefile(path) else path
+
+
+def _reading(subject: Subject, motion: Motion, before: Path | None) -> Reading:
+    neutral = _rest(before, subject) if before else None
     model = load_model(subject.model) if subject.model else None
     return read(motion, neutral=neutral, model=model)
+
+
+_LAST: dict[Any, Motion] = {}  # the neutral clip read last: many clips of a folder have the same
+
+
+def _rest(path: Path, subject: Subject) -> Motion:
+    """Return a neutral clip, read once for all the clips that are compared with it one after the other."""
+    options = (*sorted(subject.read.items()), *sorted(subject.body.items()))
+    key = (path.resolve(), path.stat().st_mtime_ns, options)
+    if key not in _LAST:
+        _LAST.clear()
+        _LAST[key] = opened(path, body=subject.body, **subject.read)
+    return _LAST[key]
 
 
 def edited(job: Job) -> tuple[Motion, Motion]:
@@ -183,8 +209,20 @@ def doubts(job: Job, before: Motion, after: Motion) -> tuple[str, ...]:
     from .analysis.inspect import doubts as odd
     from .emotion.safe import mended
 
-    reached = [job.goal.reached(before, after)] if isinstance(job.goal, Aim) else []
+    reached = _reached(job, before, after)
     return (*_damage(job, before), *odd(before), *mended(after), *reached, *_nothing(job, before, after))
+
+
+def _reached(job: Job, before: Motion, after: Motion) -> list[str]:
+    """Return what was asked for, at the strength of the job, and what is read in the result."""
+    goal = job.goal
+    if not isinstance(goal, Aim):
+        return []
+    strength = max(values(job.strength))
+    way = strength * np.subtract(goal.to, goal.start)
+    said = replace(goal, to=clamp(*np.add(goal.start, way).tolist())).reached(before, after)
+    some = bool(job.parts or job.span) or not isinstance(job.strength, int | float)
+    return [f"{said}; all of the clip is read, where only some of it was to change" if some else said]
 
 
 def _nothing(job: Job, before: Motion, after: Motion) -> list[str]:

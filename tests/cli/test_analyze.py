@@ -18,7 +18,7 @@ from mien.analysis.laban_table import DERIVED, FEATURES, SELECTED
 
 Run = Callable[..., Result]
 ALL = [d.name for d in DERIVED]
-READ = ["valence", "arousal", "quadrant", "label", "probability", "against"]
+READ = ["valence", "arousal", "quadrant", "label", "probability", "placed", "against", "neutral", "because"]
 
 
 def rows(text: str) -> list[dict[str, str]]:
@@ -68,7 +68,7 @@ def test_windows_and_frames(folder: Path, run: Run) -> None:
 
 
 def test_a_file(folder: Path, run: Run) -> None:
-    result = run("analyze", "walk.bvh", "brisk.bvh", "-o", "new/table.csv")
+    result = run("analyze", "walk.bvh", "brisk.bvh", "--features", "-o", "new/table.csv")
     assert (result.exit_code, result.stdout) == (0, "new/table.csv\n")
     assert Path("new/table.csv").read_text() == run("analyze", "walk.bvh", "brisk.bvh", "--features").stdout
     again = run("analyze", "walk.bvh", "-o", "new/table.csv")
@@ -80,7 +80,10 @@ def test_a_file(folder: Path, run: Run) -> None:
 
 def test_parquet(folder: Path, run: Run) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
-    assert run("analyze", "walk.bvh", "brisk.bvh", "-o", "table.parquet").stdout == "table.parquet\n"
+    assert (
+        run("analyze", "walk.bvh", "brisk.bvh", "--features", "-o", "table.parquet").stdout
+        == "table.parquet\n"
+    )
     table = parquet.read_table("table.parquet").to_pydict()
     assert table["file"] == ["walk.bvh", "brisk.bvh"]
     assert table["hands_distance_mean"][0] == mien.features(mien.load("walk.bvh"))["hands_distance_mean"]
@@ -174,7 +177,7 @@ def test_what_a_clip_expresses(folder: Path, run: Run) -> None:
     mien.save(mien.edit(mien.load("walk.bvh"), "sad"), "low.bvh")
     found = mien.read(mien.load("low.bvh"), neutral=mien.load("walk.bvh"))
     lines = run("analyze", "low.bvh", "--neutral", "walk.bvh").stdout.splitlines()
-    assert lines[0] == "low.bvh, against its neutral clip"
+    assert lines[0] == "low.bvh, against walk.bvh"
     place = found.place
     assert lines[1] == f"  valence {place.valence:+.2f}, arousal {place.arousal:+.2f}: mild and unpleasant"
     assert lines[2] == f"  nearest words: {', '.join(found.words)}"
@@ -251,3 +254,70 @@ def test_the_bar_over_a_folder(folder: Path, run: Run, monkeypatch: pytest.Monke
     monkeypatch.setattr(analyze, "progress", watched)
     run("analyze", ".", "--disc", "map.html")
     assert seen == [(3, "analysing")]
+
+
+def test_a_table_of_readings(folder: Path, run: Run) -> None:
+    """Without --features a table holds what a person would read, and why."""
+    run("edit", "walk.bvh", "-e", "sad", "-o", "new/low.bvh")
+    run("analyze", "walk.bvh", "new/low.bvh", "-o", "read.csv")
+    walk, low = rows(Path("read.csv").read_text())
+    assert list(walk) == ["file", "duration", *READ]
+    assert (walk["against"], walk["neutral"]) == ("usual", "")
+    assert (low["against"], low["neutral"]) == ("neutral", "walk.bvh")
+    assert low["because"] in run("analyze", "new/low.bvh").stdout
+    run("analyze", "walk.bvh", "--per", "window", "-o", "windows.csv")
+    assert len(rows(Path("windows.csv").read_text())) > 1
+
+
+def test_laban_tells_the_reading_too(folder: Path, run: Run) -> None:
+    assert run("analyze", "walk.bvh", "--laban").stdout.startswith(run("analyze", "walk.bvh").stdout)
+
+
+def test_every_clip_against_its_own_neutral_one(folder: Path, run: Run) -> None:
+    """Found by names: the neutral take of the same content and performer."""
+    Path("takes").mkdir()
+    for content, make in {"walk": samples.walk, "wave": samples.wave}.items():
+        rest = make(seconds=2.0, fps=30.0).motion
+        mien.save(rest, f"takes/{content}_calm.bvh")
+        mien.save(mien.edit(rest, "sad"), f"takes/{content}_low.bvh")
+    mien.save(samples.knock(seconds=2.0, fps=30.0).motion, "takes/knock_low.bvh")
+    pattern = ["--labels", "(?P<content>.+)_(?P<label>.+)"]
+    result = run("analyze", "takes", "--neutral", "calm", *pattern, "--json", "--jobs", "2")
+    found = {entry["file"]: entry.get("neutral", "") for entry in json.loads(result.stdout)}
+    for content in ("walk", "wave"):
+        assert found[f"takes/{content}_low.bvh"] == found[f"takes/{content}_calm.bvh"]
+        assert found[f"takes/{content}_low.bvh"] == f"takes/{content}_calm.bvh"
+    assert found["takes/knock_low.bvh"] == ""
+    assert "1 of 5 clips have no neutral take" in result.stderr
+    near = json.loads(run("find", "takes", "--like", "sad", "--neutral", "calm", *pattern, "--json").stdout)
+    guessed = {entry["file"] for entry in near if entry["against"] == "usual"}
+    assert guessed == {"takes/knock_low.bvh"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--labels", "(?P<label>.+)"], "give --neutral LABEL too"),
+        (
+            ["--labels", "(?P<label>.+)", "--neutral", "wolk"],
+            "--neutral: there is no label 'wolk'; did you mean",
+        ),
+        (["--neutral", "normal"], "a label needs --labels"),
+        (["--neutral", "rod.bvh"], "mien: rod.bvh: not found in this skeleton"),
+        (["--jobs", "-2"], "--jobs"),
+    ],
+)
+def test_neutral_clips_it_refuses(folder: Path, run: Run, arguments: list[str], said: str) -> None:
+    Path("rod.bvh").write_text(
+        "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
+        "End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n"
+    )
+    result = run("analyze", "walk.bvh", *arguments)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert said in result.stderr
+
+
+def test_a_clip_of_no_length_is_told(folder: Path, run: Run) -> None:
+    mien.save(samples.still(seconds=0.0).motion, "one.bvh")
+    assert "too short to say how somebody moves" in run("analyze", "one.bvh").stdout
+    assert "too short" not in run("analyze", "walk.bvh").stdout

@@ -48,7 +48,7 @@ def test_by_a_place(library: Path, run: Run) -> None:
     found = json.loads(run("find", ".", "--valence", -0.5, "--arousal", -0.5, "--json").stdout)
     assert len(found) == 5
     for entry in found:
-        away = np.hypot(entry["valence"] + 0.5, entry["arousal"] + 0.5)
+        away = np.hypot(entry["valence"] + 0.5, entry["arousal"] + 0.5) + 1.0 - entry["placed"]
         assert entry["distance"] == pytest.approx(away, abs=0.002)
 
 
@@ -76,6 +76,26 @@ def test_an_edited_clip_beside_its_source(library: Path, run: Run) -> None:
     assert {entry["against"] for entry in by_clip} == {"usual"}
 
 
+def test_a_neutral_clip_is_read_once(library: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    from mien import batch
+
+    read: list[str] = []
+    load = batch.load
+
+    def counted(path: Path, **options: object) -> mien.Motion:
+        read.append(str(path))
+        return load(path, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(batch, "load", counted)
+    arguments = ["--like", "sad", "--jobs", "1", "--json"]
+    run("find", "brisk.bvh", "deeper", "brisk_bent.bvh", "--neutral", "walk.bvh", *arguments)
+    assert read.count("walk.bvh") <= 1 + 1  # once before any work, to refuse what cannot be used
+    run("edit", "walk.bvh", "-e", "sad", "-o", "walk.bvh", "--force")
+    before = len(read)
+    run("find", "brisk.bvh", "--neutral", "walk.bvh", *arguments)
+    assert "walk.bvh" in read[before:], "a file that has changed is read again"
+
+
 def test_a_clip_that_fails_does_not_stop_the_others(library: Path, run: Run) -> None:
     Path("bad.bvh").write_text("rubbish")
     result = run("find", ".", "--like", "sad", "--json")
@@ -93,8 +113,8 @@ def test_a_clip_that_fails_does_not_stop_the_others(library: Path, run: Run) -> 
     ("arguments", "said"),
     [
         ([], "say what to find"),
-        (["--like", "sad", "--valence", "0"], "say what to find"),
-        (["--valence", "0.5"], "say what to find"),
+        (["--like", "sad", "--valence", "0"], "not both"),
+        (["--valence", "0.5"], "needs both numbers"),
         (["--like", "sadd"], "did you mean 'sad'?"),
         (["--like", "wolk.bvh"], "did you mean walk.bvh?"),
         (["--like", "sad", "--neutral", "none.bvh"], "none.bvh: there is no such file"),
@@ -113,3 +133,12 @@ def test_nothing_but_the_clip_itself(folder: Path, run: Run) -> None:
     result = run("find", "walk.bvh", "--like", "walk.bvh")
     assert result.exit_code == 2
     assert "nothing but walk.bvh" in result.stderr
+
+
+def test_names_of_files_are_never_broken(library: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However narrow the terminal is: they are to be copied."""
+    monkeypatch.setenv("COLUMNS", "40")
+    long = "a" * 120 + ".bvh"
+    Path("walk.bvh").rename(long)
+    lines = run("find", long, "brisk.bvh", "--like", "sad").stdout.splitlines()
+    assert sorted(line.split()[-1] for line in lines[1:]) == sorted([long, "brisk.bvh"])

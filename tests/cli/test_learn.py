@@ -50,8 +50,9 @@ def test_learn_and_read(takes: Path, run: Run) -> None:
     assert (result.exit_code, result.stderr) == (0, "")
     lines = result.stdout.splitlines()
     assert lines[-1] == "models/own.json"
-    assert lines[0].split() == ["takes", "9"]
-    assert any(line.startswith("change top-1") for line in lines)
+    assert lines[:2] == ["9 takes of knock, walk, wave", "labels: big, neutral, sad"]
+    assert any(line.startswith("takes whose label is the likeliest") for line in lines)
+    assert "guessing a label would be right in 0.33" in lines
     model = load_model("models/own.json")
     assert (model.card["source"], model.card["licence"]) == ("our takes", "ours")
     assert model.card["labels"] == ["big", "neutral", "sad"]
@@ -135,7 +136,7 @@ def test_the_same_clips_teach_the_same_bytes(takes: Path, process: Callable[...,
         (["--place", "big=exited"], "did you mean 'excited'?"),
         (["--place", "big=nan,0"], "a place is two numbers"),
         (["--place", "big=1,2,3"], "a place is two numbers"),
-        (["--neutral", "rest"], "with a neutral take"),
+        (["--neutral", "rest"], "no clip is labelled 'rest'"),
     ],
 )
 def test_what_it_refuses(takes: Path, run: Run, arguments: list[str], said: str) -> None:
@@ -155,3 +156,28 @@ def test_what_it_cannot_learn(takes: Path, run: Run) -> None:
     one = run("learn", "emotion", "takes/walk*", "--neutral", "calm", "--place", "big=excited")
     assert one.exit_code == 2
     assert "two or more contents" in one.stderr
+
+
+def test_too_little_is_told_before_a_clip_is_read(takes: Path, run: Run) -> None:
+    """And what was found in the names, as the pattern may be the slip."""
+    for file in takes.iterdir():
+        file.write_text("rubbish")
+    pattern = "(?P<content>.+)_(?P<label>.+)"
+    missing = run("learn", "emotion", "takes", "--labels", pattern)
+    assert missing.exit_code == 2
+    assert missing.stderr == "mien: --neutral: no clip is labelled 'neutral' (labels found: big, calm, sad)\n"
+    swapped = run(
+        "learn", "emotion", "takes", "--labels", "(?P<label>.+)_(?P<content>.+)", "--neutral", "walk"
+    )
+    assert "no place yet: knock, wave" in swapped.stderr
+    for name in ("wave_calm.bvh", "knock_calm.bvh"):
+        (takes / name).unlink()
+    one = learn(run)
+    assert "mien: note: left out, as there is no neutral take: knock, wave" in one.stderr
+    assert (
+        "two or more contents with a neutral take and takes of labels with a place; there is walk"
+        in one.stderr
+    )
+    (takes / "walk_sad.bvh").unlink()
+    none = learn(run)
+    assert "contents with one: walk; without one: knock, wave; labels: big, neutral, sad" in none.stderr

@@ -1,6 +1,7 @@
 """Finding clips: distances worked out by hand, and clips that are like another."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -59,7 +60,14 @@ def test_by_an_unknown_word() -> None:
 
 def test_by_an_example() -> None:
     found = by_example(LIBRARY, LIBRARY["c"])
-    assert [(m.name, m.distance) for m in found] == [("c", 0.0), ("a", 0.75), ("b", 0.75)]
+    assert [(m.name, m.distance) for m in found] == [("c", 0.0), ("b", 0.5), ("a", 0.75)]
+
+
+def test_what_is_like_it_but_more_is_nearer_than_what_is_like_nothing() -> None:
+    """Twice the manner is its like; a clip with nothing unusual is not, though its numbers are as near."""
+    example, more, plain = (reading((0.0, 0.0), {}, manner=m) for m in (1.0, 2.0, 0.0))
+    assert [m.name for m in by_example({"plain": plain, "more": more}, example)] == ["more", "plain"]
+    assert [m.name for m in by_example({"more": more, "example": example}, plain)] == ["example", "more"]
 
 
 def test_guesses_are_not_mixed_with_what_is_sure() -> None:
@@ -70,7 +78,7 @@ def test_guesses_are_not_mixed_with_what_is_sure() -> None:
 
 def test_plain_data() -> None:
     data = by_example(LIBRARY, LIBRARY["c"])[1].as_data()
-    assert (data["file"], data["distance"], data["valence"]) == ("a", 0.75, 0.343)
+    assert (data["file"], data["distance"], data["valence"]) == ("b", 0.5, 0.043)
     assert "why" not in data
 
 
@@ -87,3 +95,13 @@ def test_edits_find_their_like() -> None:
     for how in ("bent", "large"):
         others = {name: found for name, found in library.items() if name != f"walk {how}"}
         assert by_example(others, library[f"walk {how}"])[0].name == f"stroll {how}"
+
+
+def test_what_has_no_place_is_not_near_to_one() -> None:
+    """A clip that is like a label nowhere on the disc is no find, wherever the rest of it stands."""
+    sure = reading((0.1, -0.6), {"tired": 1.0})
+    nowhere = replace(reading((0.0, -0.6), {"old": 0.99}), placed=0.01)
+    library = {"nowhere": nowhere, "sure": sure}
+    assert [m.name for m in by_place(library, Point(0.0, -0.6))] == ["sure", "nowhere"]
+    found = by_word(library, "sleepy", model=MODEL)
+    assert [m.name for m in found] == ["sure", "nowhere"]

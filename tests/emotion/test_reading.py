@@ -9,7 +9,8 @@ import pytest
 
 import mien
 from mien import samples
-from mien.analysis.manner_features import FEATURES
+from mien.analysis.manner import change_between
+from mien.analysis.manner_features import FEATURES, manner_features
 from mien.emotion import circumplex, reading
 from mien.emotion.model import shipped_model
 from mien.errors import MienError
@@ -35,9 +36,49 @@ def test_a_sad_walk(walk: Motion, sad: Motion) -> None:
     assert "sad" in found.words
     assert {"head bent forward", "trunk bent forward"} & {reason.what for reason in found.why}
     bent = next(reason for reason in found.why if reason.what in ("head bent forward", "trunk bent forward"))
-    assert bent.how_much.startswith("+")
     assert bent.how_much.endswith("degrees")
     assert [r.pull for r in found.why] == sorted((r.pull for r in found.why), reverse=True)
+
+
+def test_reasons_have_the_words_of_their_direction(walk: Motion) -> None:
+    """What an edit does is said as it looks, and nothing that cannot be seen."""
+    edits = {
+        "shoulders raised": {"shoulders": 15},
+        "shoulders lowered": {"shoulders": -15},
+        "upper arms away from the body": {"arms": 20},
+        "elbows more bent": {"elbows": 30},
+        "thighs apart": {"legs": 8},
+        "head bent back": {"head": -20},
+    }
+    for what, changed in edits.items():
+        numbers = manner_features(change_between(walk, mien.apply(walk, [Step("posture", changed)])))
+        assert what in {f.said(float(n))[0] for f, n in zip(FEATURES, numbers, strict=True) if abs(n) > 0.3}
+    slight = mien.read(mien.apply(walk, [Step("posture", {"shoulders": 2})]), neutral=walk)
+    assert slight.why == ()
+
+
+def test_a_place_by_a_small_share_is_told(walk: Motion) -> None:
+    """A clip that is like a label without a place may stand anywhere: that is said."""
+    model = shipped_model()
+    found = mien.read(walk, model=model)
+    assert found.placed == pytest.approx(sum(found.labels[label] for label in model.places))
+    only = replace(model, places={"tired": model.places["tired"]})
+    unsure = mien.read(walk, model=only)
+    assert unsure.placed == pytest.approx(unsure.labels["tired"])
+    assert unsure.hardly_placed
+    assert "has no place on the disc" in unsure.lines()[0]
+    assert "has no place" in unsure._repr_html_()
+    assert "no place" not in str(mien.read(walk, neutral=walk))
+
+
+def test_in_words(sad: Motion) -> None:
+    lines = str(mien.read(sad)).splitlines()
+    assert [line.split(" ")[0] for line in lines] == ["valence", "nearest", "acted", "because:"]
+
+
+def test_a_model_by_its_path_is_refused_in_words(walk: Motion) -> None:
+    with pytest.raises(MienError, match="load_model reads one"):
+        mien.read(walk, model="mine.json")  # type: ignore[arg-type]
 
 
 def test_nothing_against_itself(walk: Motion) -> None:
@@ -103,10 +144,10 @@ def test_a_neutral_clip_of_another_skeleton(sad: Motion) -> None:
 def test_plain_data(sad: Motion) -> None:
     found = mien.read(sad)
     data = json.loads(json.dumps(found.as_data(), allow_nan=False))
-    assert list(data) == ["valence", "arousal", "quadrant", "words", "labels", "against", "why"]
+    assert list(data) == ["valence", "arousal", "quadrant", "words", "labels", "placed", "against", "why"]
     assert data["valence"] == pytest.approx(found.place.valence, abs=1e-3)
     assert sum(data["labels"].values()) == pytest.approx(1.0, abs=0.01)
-    assert data["why"][0]["what"] in {f.label for f in FEATURES}
+    assert data["why"][0]["what"] in {word for f in FEATURES for word in (f.label, f.opposite)}
     assert len(data["words"]) == 3
 
 

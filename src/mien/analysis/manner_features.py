@@ -15,12 +15,55 @@ from .manner import Change
 
 AXES = ("pitch", "turn", "tilt")  # about left, up and forward
 SIDED = (*ARM, *LEG)
-# Of these only the pitch: to one side is nobody's mood.
+# What a number above 0 is for a person, and what one below. Of the middle only the pitch: to one side is
+# nobody's mood.
 MIDDLE = {
-    "hips": "pelvis tipped forward",
-    "trunk": "trunk bent forward",
-    "neck": "neck bent forward",
-    "head": "head bent forward",
+    "hips": ("pelvis tipped forward", "pelvis tipped back"),
+    "trunk": ("trunk bent forward", "trunk bent back"),
+    "neck": ("neck bent forward", "neck bent back"),
+    "head": ("head bent forward", "head bent back"),
+}
+SIDES = {
+    "collar": (
+        ("shoulders rolled forward", "shoulders rolled back"),
+        ("shoulders drawn back", "shoulders drawn forward"),
+        ("shoulders raised", "shoulders lowered"),
+    ),
+    "shoulder": (
+        ("upper arms back", "upper arms forward"),
+        ("upper arms turned out", "upper arms turned in"),
+        ("upper arms away from the body", "upper arms nearer to the body"),
+    ),
+    "elbow": (
+        ("elbows straighter", "elbows more bent"),
+        ("forearms turned out", "forearms turned in"),
+        ("forearms out", "forearms in"),
+    ),
+    "wrist": (
+        ("hands bent back", "hands bent forward"),
+        ("hands turned out", "hands turned in"),
+        ("hands bent out", "hands bent in"),
+    ),
+    "hip": (
+        ("thighs back", "thighs forward"),
+        ("legs turned out", "legs turned in"),
+        ("thighs apart", "thighs closer together"),
+    ),
+    "knee": (
+        ("knees more bent", "knees straighter"),
+        ("shins turned out", "shins turned in"),
+        ("shins out", "shins in"),
+    ),
+    "ankle": (
+        ("feet pointing down", "feet pointing up"),
+        ("feet turned out", "feet turned in"),
+        ("feet tipped out", "feet tipped in"),
+    ),
+    "toe": (
+        ("toes pointing down", "toes pointing up"),
+        ("toes turned out", "toes turned in"),
+        ("toes tipped out", "toes tipped in"),
+    ),
 }
 GAINS = ("head", "torso", "arm", "leg")
 
@@ -29,32 +72,38 @@ GAINS = ("head", "torso", "arm", "leg")
 class MannerFeature:
     """One number of a change: its ``name``, what it is for a person, its ``unit``, and how much is clear.
 
-    Values are in units of ``scale``; a ``factor`` is counted by its logarithm.
+    ``label`` says what a value above 0 is, ``opposite`` one below, where that has another word. Values are in
+    units of ``scale``; a ``factor`` is counted by its logarithm.
     """
 
     name: str
     label: str
+    opposite: str
     unit: str
     scale: float
     factor: bool = False
 
-    def said(self, value: float) -> str:
-        """Return a value, in units of ``scale``, as a person says it: ``+12 degrees`` or ``x 0.62``."""
+    def said(self, value: float) -> tuple[str, str]:
+        """Return what a value, in units of ``scale``, is for a person, and how much.
+
+        >>> FEATURES[3].said(-1.2), FEATURES[-1].said(-1.0)
+        (('head bent back', '12 degrees'), ('jerkiness', 'x 0.72'))
+        """
         if self.factor:
-            return f"x {np.exp(value * self.scale):.2f}"
-        return f"{value * self.scale:+.{1 if self.scale < 5 else 0}f} {self.unit}"
+            return self.label, f"x {np.exp(value * self.scale):.2f}"
+        amount = f"{abs(value) * self.scale:.{1 if self.scale < 5 else 0}f} {self.unit}"
+        return (self.label if value >= 0.0 else self.opposite), amount
 
 
 def _features() -> tuple[MannerFeature, ...]:
-    found = [MannerFeature(f"{s}_pitch", label, "degrees", 10.0) for s, label in MIDDLE.items()]
-    words = {"pitch": "back", "turn": "turned out", "tilt": "out"}
+    found = [MannerFeature(f"{s}_pitch", *both, "degrees", 10.0) for s, both in MIDDLE.items()]
     for role in SIDED:
-        for axis in AXES:
-            found.append(MannerFeature(f"{role}_{axis}", f"{role} {words[axis]}", "degrees", 10.0))
-    found.append(MannerFeature("hips_height", "hips height", "% of a leg", 3.0))
-    found += [MannerFeature(f"{limb}_swing", f"{limb} movement", "", 0.33, factor=True) for limb in GAINS]
-    found.append(MannerFeature("rate", "quickness", "", 0.33, factor=True))
-    found.append(MannerFeature("sharpness", "jerkiness", "", 0.33, factor=True))
+        for axis, both in zip(AXES, SIDES[role], strict=True):
+            found.append(MannerFeature(f"{role}_{axis}", *both, "degrees", 10.0))
+    found.append(MannerFeature("hips_height", "hips higher", "hips lower", "% of a leg", 3.0))
+    factors = [(f"{limb}_swing", f"{limb} movement") for limb in GAINS]
+    factors += [("rate", "quickness"), ("sharpness", "jerkiness")]
+    found += [MannerFeature(name, label, label, "", 0.33, factor=True) for name, label in factors]
     return tuple(found)
 
 

@@ -15,10 +15,30 @@ from .report import complain, located, note, progress, show_json, show_table
 if TYPE_CHECKING:
     from ..analysis.laban import Features
     from ..batch import Analysis, Subject
-    from ..emotion.reading import Reading
 
 PER = ("clip", "window", "frame")
+SHORT = 0.5  # seconds; in less nobody has moved to and fro
+GUESSED = "against how people usually move: a guess, --neutral makes it sure"
 BESIDE = 4  # clips in one table for a person
+
+
+Neutral = Annotated[
+    Path | None,
+    typer.Option(
+        help="A clip of the same person, best of the same action, to read the difference from; with --labels "
+        "the label of such clips.",
+    ),
+]
+Labels = Annotated[
+    str,
+    typer.Option(
+        help="How each clip finds its own neutral one, of the same content and performer: a table (.csv) or "
+        "a pattern for file names, as for mien learn.",
+    ),
+]
+Jobs = Annotated[
+    int, typer.Option("--jobs", "-j", min=0, help="Processes to share the clips; 0 takes every core.")
+]
 
 
 def analyze(
@@ -31,26 +51,25 @@ def analyze(
         typer.Option(help="One line of the table for each clip, window (of 1.17 seconds) or frame."),
     ] = "clip",
     out: Annotated[
-        Path | None, typer.Option("--out", "-o", help="The .csv or .parquet file for the table.")
-    ] = None,
-    neutral: Annotated[
         Path | None,
-        typer.Option(help="A clip of the same person, best of the same action, to read the difference from."),
+        typer.Option(
+            "--out", "-o", help="A .csv or .parquet file: what each clip expresses, with --features all else."
+        ),
     ] = None,
+    neutral: Neutral = None,
+    labels: Labels = "",
     model: Annotated[
         Path | None, typer.Option(help="A model that mien learn wrote, in place of the shipped one.")
     ] = None,
     laban: Annotated[
-        bool, typer.Option("--laban", help="Also the 31 Laban features that tell emotions apart.")
+        bool, typer.Option("--laban", help="Also the 31 Laban features that tell emotions apart, as a table.")
     ] = False,
     plot: Annotated[Path | None, typer.Option(help="A .png picture of the features over time.")] = None,
     disc: Annotated[
         Path | None,
         typer.Option(help="A .html page or .png picture of all clips on the disc of emotion words."),
     ] = None,
-    jobs: Annotated[
-        int, typer.Option("--jobs", "-j", help="Processes to share the clips; 0 takes every core.")
-    ] = 0,
+    jobs: Jobs = 0,
     as_json: a.Json = False,
     force: a.Force = False,
     fps: a.Fps = None,
@@ -67,6 +86,8 @@ def analyze(
 
     mien analyze angry_wave.bvh --neutral wave.bvh
 
+    mien analyze takes/ -o read.csv --neutral normal --labels '(?P<content>.+)_(?P<label>.+)_[0-9]+'
+
     mien analyze takes/ --features -o features.csv
 
     mien analyze takes/ --disc takes.html
@@ -75,11 +96,12 @@ def analyze(
     from .inputs import expand
 
     found = [clip.path for clip in expand(clips)]
-    per = _checked(per, features or out is not None)
+    features = features or (per != "clip" and out is not None)
+    per = _checked(per, features)
     _refuse(found, out, plot, disc, force)
     subject = Subject(Path(), {"fps": fps, "salvage": salvage}, a.read_map(map_file), neutral, model)
-    subject = replace(subject, laban=features or laban or as_json or bool(out or plot))
-    done = read_all(found, subject, jobs, map_file)
+    subject = replace(subject, laban=features or laban or as_json or bool(plot))
+    done = read_all(found, subject, jobs, map_file, labels=labels)
     good = [analysis for analysis in done if not analysis.error]
     if plot and good:
         _draw(good[0], plot)
@@ -93,19 +115,35 @@ def analyze(
     end(done)
 
 
-def read_all(found: Sequence[Path], like: "Subject", jobs: int, map_file: Path | None) -> "list[Analysis]":
+def read_all(
+    found: Sequence[Path], like: "Subject", jobs: int, map_file: Path | None, *, labels: str = ""
+) -> "list[Analysis]":
     """Return what is found in clips, each measured ``like`` the subject, with a bar.
 
-    Raises ``MienError`` for a neutral clip or a model that cannot be used, before any work is done.
+    With ``labels`` the neutral clip of the subject is the label of such, and each clip has its own. Raises
+    ``MienError`` for a neutral clip or a model that cannot be used, before any work is done.
     """
     from ..batch import analyse_files
     from ..emotion.model import load_model
+    from .labels import neutral_takes
 
-    if like.neutral:
-        a.opened(like.neutral, like.read["fps"], like.read["salvage"], map_file)
+    own: dict[Path, Path] = {}
+    if labels:
+        if not like.neutral:
+            raise MienError("--labels is how clips find their neutral one: give --neutral LABEL too")
+        own = neutral_takes(found, labels, str(like.neutral))
+        like = replace(like, neutral=None)
+    elif like.neutral:
+        if not like.neutral.suffix and not like.neutral.exists():
+            raise MienError(
+                f"--neutral {like.neutral}: there is no such file; a label needs --labels, which says how "
+                "clips are labelled"
+            )
+        a.with_body(like.neutral, a.opened(like.neutral, like.read["fps"], like.read["salvage"], map_file))
     if like.model:
         load_model(like.model)
-    work = analyse_files([replace(like, source=path) for path in found], workers=jobs or os.cpu_count() or 1)
+    subjects = [replace(like, source=path, neutral=own.get(path, like.neutral)) for path in found]
+    work = analyse_files(subjects, workers=jobs or os.cpu_count() or 1)
     return list(progress(work, total=len(found), doing="analysing"))
 
 
@@ -191,18 +229,18 @@ def _say(
     from .tables import as_csv, write_table
 
     if out:
-        write_table(out, _columns(good, per))
+        write_table(out, _columns(good, per if every else ""))
         typer.echo(str(out))
     elif as_json:
         show_json([_as_data(analysis, every, per) for analysis in good])
     elif every:
         typer.echo(as_csv(_columns(good, per)), nl=False)
-    elif laban:
-        for start in range(0, len(good), BESIDE):
-            _show(good[start : start + BESIDE])
-    elif not drawn:
+    elif laban or not drawn:
         for analysis in good:
             _read_out(analysis)
+        for start in range(0, len(good) if laban else 0, BESIDE):
+            typer.echo("")
+            _show(good[start : start + BESIDE])
 
 
 def _read_out(analysis: "Analysis") -> None:
@@ -210,16 +248,12 @@ def _read_out(analysis: "Analysis") -> None:
     found = analysis.reading
     if found is None:
         return
-    how = "against how people usually move: a guess, --neutral makes it sure"
-    how = "against its neutral clip" if found.against == "neutral" else how
+    how = f"against {analysis.neutral}" if analysis.neutral else GUESSED
     typer.echo(f"{analysis.source}, {how}")
-    place, quadrant = found.place, found.quadrant
-    typer.echo(f"  valence {place.valence:+.2f}, arousal {place.arousal:+.2f}: {quadrant}")
-    typer.echo(f"  nearest words: {', '.join(found.words)}")
-    likely = [f"{label} {100 * p:.0f} %" for label, p in list(found.labels.items())[:4] if p > 0.02]
-    typer.echo(f"  acted like: {', '.join(likely)}")
-    if found.why:
-        typer.echo(f"  because: {'; '.join(map(str, found.why))}")
+    if analysis.duration < SHORT:
+        typer.echo(f"  only {analysis.duration:.2f} s long: too short to say how somebody moves")
+    for line in found.lines():
+        typer.echo(f"  {line}")
 
 
 def _features(analysis: "Analysis") -> "Features":
@@ -229,9 +263,15 @@ def _features(analysis: "Analysis") -> "Features":
 
 
 def _rows(analysis: "Analysis", per: str) -> dict[str, list[Any]]:
-    """Return the columns of one clip: the file, the seconds, what a whole clip expresses, the features."""
+    """Return the columns of one clip: the file, the seconds, what a whole clip expresses, the features.
+
+    ``per`` is a line for what; without it there are no features.
+    """
     from ..analysis.laban_table import FEATURES
 
+    if not per:
+        read = {"file": str(analysis.source), "duration": analysis.duration, **_read_columns(analysis)}
+        return {name: [value] for name, value in read.items()}
     found = _features(analysis)
     if per == "clip":
         names, values, times = found.names, found.clip[None], [analysis.duration]
@@ -241,20 +281,26 @@ def _rows(analysis: "Analysis", per: str) -> dict[str, list[Any]]:
         names, values, times = tuple(f.name for f in FEATURES), found.frames, found.times.tolist()
     first: dict[str, list[Any]] = {"file": [str(analysis.source)] * len(times)}
     first |= {"duration" if per == "clip" else "time": times}
-    if per == "clip" and analysis.reading:
-        first |= {name: [value] for name, value in _read_columns(analysis.reading).items()}
+    if per == "clip":
+        first |= {name: [value] for name, value in _read_columns(analysis).items()}
     return first | dict(zip(names, values.T.tolist(), strict=True))
 
 
-def _read_columns(reading: "Reading") -> dict[str, Any]:
+def _read_columns(analysis: "Analysis") -> dict[str, Any]:
     """Return what a clip expresses as columns of a table."""
+    reading = analysis.reading
+    if reading is None:
+        raise MienError(analysis.error)
     label, probability = next(iter(reading.labels.items()))
     return {
         **reading.place._asdict(),
         "quadrant": reading.quadrant,
         "label": label,
         "probability": probability,
+        "placed": reading.placed,
         "against": reading.against,
+        "neutral": str(analysis.neutral or ""),
+        "because": "; ".join(map(str, reading.why)),
     }
 
 
@@ -273,6 +319,7 @@ def _as_data(analysis: "Analysis", every: bool, per: str) -> dict[str, Any]:
         "frames": analysis.frames,
         "seconds": analysis.duration,
     }
+    about |= {"neutral": str(analysis.neutral)} if analysis.neutral else {}
     about |= {"reading": analysis.reading.as_data()} if analysis.reading else {}
     if every and per != "clip":
         rows = _rows(analysis, per)

@@ -39,6 +39,30 @@ def opened(path: Path, fps: float | None, salvage: bool, map_file: Path | None) 
         raise FormatError(located(path, str(error))) from None
 
 
+def opened_body(path: Path, map_file: Path | None) -> "Motion":
+    """Return the motion of a clip to learn the manner of; the map file counts where its joints are there.
+
+    Raises ``MienError`` that names the clip where it has no body.
+    """
+    motion = opened(path, None, False, None)
+    if map_file and set(read_map(map_file).values()) <= set(motion.skeleton.names):
+        motion = opened(path, None, False, map_file)
+    return with_body(path, motion)
+
+
+def with_body(path: Path, motion: "Motion") -> "Motion":
+    """Return the motion of a clip; raise ``BodyError``, which names the clip, where it has no body."""
+    from ..errors import BodyError, MienError
+    from ..kinematics.body import Body
+    from .report import located
+
+    try:
+        Body.of(motion)
+    except MienError as error:
+        raise BodyError(located(path, str(error))) from None
+    return motion
+
+
 def read_map(path: Path | None) -> dict[str, str]:
     """Return the roles of a map file; none without one."""
     from ..kinematics.roles import read_map as read

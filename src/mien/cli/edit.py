@@ -31,10 +31,16 @@ RecipeFile = Annotated[
 ]
 To = Annotated[
     str | None,
-    typer.Option(metavar="WORD", help="A word of the circumplex to move to, such as happy, bored or calm."),
+    typer.Option(
+        metavar="WORD", help="A word of the circumplex to move to, such as happy, bored or calm, or V,A."
+    ),
 ]
-Valence = Annotated[float | None, typer.Option(help="Move to this valence: -1 unpleasant, 1 pleasant.")]
-Arousal = Annotated[float | None, typer.Option(help="Move to this arousal: -1 calm, 1 intense.")]
+Valence = Annotated[
+    float | None, typer.Option(help="Move to this valence: -1 unpleasant, 1 pleasant; 0 without it.")
+]
+Arousal = Annotated[
+    float | None, typer.Option(help="Move to this arousal: -1 calm, 1 intense; 0 without it.")
+]
 By = Annotated[str, typer.Option(metavar="V,A", help="Move by so much valence and arousal, such as +.3,0.")]
 Start = Annotated[
     str,
@@ -42,6 +48,12 @@ Start = Annotated[
 ]
 Way = Annotated[
     str, typer.Option("--method", help="How to move there: recipe (presets), rules or joint (learned).")
+]
+Model = Annotated[
+    Path | None,
+    typer.Option(
+        help="A model that mien learn wrote, to move and to read back by, in place of the shipped one."
+    ),
 ]
 FromExample = Annotated[
     Path | None, typer.Option(help="A clip of anyone whose manner to take, on any skeleton.")
@@ -103,6 +115,7 @@ def edit(
     by: By = "",
     start: Start = "",
     method: Way = "recipe",
+    model: Model = None,
     from_example: FromExample = None,
     example_neutral: ExampleNeutral = None,
     strength: Strength = "1",
@@ -146,8 +159,8 @@ def edit(
     from .goals import Asked, goal_of
     from .inputs import STDOUT
 
-    place = Asked(to, valence, arousal, by, start, method)
-    goal = goal_of(place, from_example, example_neutral)
+    place = Asked(to, valence, arousal, by, start, method, model)
+    goal = goal_of(place, from_example, example_neutral, map_file=map_file)
     made = _recipe(emotion, recipe, flags, foot_plant, goal.name if goal else "")
     made = made if safe is None else replace(made, safe=safe)
     whole = Job(
@@ -355,7 +368,8 @@ def _plan(todo: "Sequence[Job]", as_json: bool) -> None:
     for number, step in enumerate(steps, start=1):
         typer.echo(f"  {number}. {_described(step)}")
     if job.goal:
-        typer.echo(f"  moved to {job.goal.name}: by steps that depend on the clip, before these")
+        where = ", before these" if steps else ""
+        typer.echo(f"  moved ({job.goal.name}): by steps that depend on the clip{where}")
     elif not steps:
         typer.echo("  nothing is changed")
     elif job.recipe.safe:

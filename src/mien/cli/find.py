@@ -9,7 +9,7 @@ import typer
 
 from ..errors import MienError
 from . import arguments as a
-from .analyze import end, read_all
+from .analyze import Jobs, Labels, Neutral, end, read_all
 from .report import located, number, show_json, show_table
 
 if TYPE_CHECKING:
@@ -30,15 +30,12 @@ def find(
         float | None, typer.Option(min=-1.0, max=1.0, help="And calm -1 to intense 1.")
     ] = None,
     top: Annotated[int, typer.Option(min=1, help="How many clips to name.")] = 10,
-    neutral: Annotated[
-        Path | None, typer.Option(help="A neutral clip of the same person, to read the difference from.")
-    ] = None,
+    neutral: Neutral = None,
+    labels: Labels = "",
     model: Annotated[
         Path | None, typer.Option(help="A model that mien learn wrote, in place of the shipped one.")
     ] = None,
-    jobs: Annotated[
-        int, typer.Option("--jobs", "-j", help="Processes to share the clips; 0 takes every core.")
-    ] = 0,
+    jobs: Jobs = 0,
     as_json: a.Json = False,
     fps: a.Fps = None,
     salvage: a.Salvage = False,
@@ -47,7 +44,8 @@ def find(
     """Find the clips that express something: nearest to a word, to a place on the disc, or to a clip.
 
     By a word or place, distances are those on the disc, to which a label adds what its probability lacks to
-    1. By a clip, they tell how much the manner differs, in units of what is usual.
+    1, and a place the share of a reading that has no place. By a clip, they tell how much the manner differs:
+    0 is the same, near 1 has nothing in common.
 
     mien find takes/ --like tired --top 5
 
@@ -67,16 +65,16 @@ def find(
         Path(), {"fps": fps, "salvage": salvage}, a.read_map(map_file), neutral, model, laban=False
     )
     if example:
-        done = _with_example(found, example, replace(subject, of_source=False), jobs, map_file)
+        done = _with_example(found, example, replace(subject, of_source=False), jobs, map_file, labels)
         library = _library(done[1:])
         matches = by_example(library, _reading(done[0]))
     elif like is not None:
         learned = load_model(model) if model else shipped_model()
         by_word({}, like, model=learned)  # a slip shows before any work is done
-        done = read_all(found, subject, jobs, map_file)
+        done = read_all(found, subject, jobs, map_file, labels=labels)
         matches = by_word(_library(done), like, model=learned)
     else:
-        done = read_all(found, subject, jobs, map_file)
+        done = read_all(found, subject, jobs, map_file, labels=labels)
         matches = by_place(_library(done), clamp(valence or 0.0, arousal or 0.0))
     _show(matches[:top], as_json)
     end(done)
@@ -91,7 +89,11 @@ def _example(like: str | None, valence: float | None, arousal: float | None) -> 
     from .inputs import existing
 
     place = valence is not None, arousal is not None
-    if any(place) == (like is not None) or any(place) != all(place):
+    if any(place) and like is not None:
+        raise MienError("say what to find by --like or by --valence and --arousal, not both")
+    if any(place) != all(place):
+        raise MienError("a place to find needs both numbers: --valence and --arousal")
+    if not any(place) and like is None:
         raise MienError("say what to find: --like WORD, --like CLIP, or --valence and --arousal")
     path = Path(like or "")
     if like is None or not (path.suffix.lower() in FORMATS or path.is_file()):
@@ -100,13 +102,13 @@ def _example(like: str | None, valence: float | None, arousal: float | None) -> 
 
 
 def _with_example(
-    found: Sequence[Path], example: Path, subject: "Subject", jobs: int, map_file: Path | None
+    found: Sequence[Path], example: Path, subject: "Subject", jobs: int, map_file: Path | None, labels: str
 ) -> "list[Analysis]":
     """Return what is found in the example, which comes first, and in all other clips."""
     others = [path for path in found if path.resolve() != example.resolve()]
     if not others:
         raise MienError(f"there is nothing but {example} to find; name other clips")
-    done = read_all([example, *others], subject, jobs, map_file)
+    done = read_all([example, *others], subject, jobs, map_file, labels=labels)
     if done[0].error:
         raise MienError(located(example, done[0].error))
     return done
@@ -133,4 +135,4 @@ def _show(matches: "Sequence[Match]", as_json: bool) -> None:
         numbers = number(match.distance), f"{place.valence:+.2f}", f"{place.arousal:+.2f}"
         rows.append((*numbers, f"{label} {100 * p:.0f} %", guess, match.name))
     if rows:
-        show_table(("distance", "valence", "arousal", "acted like", "", "clip"), rows, numbers=6)
+        show_table(("distance", "valence", "arousal", "acted like", "", "clip"), rows, numbers=6, whole=True)

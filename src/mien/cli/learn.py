@@ -1,16 +1,15 @@
 """``mien learn``: a model of emotion from labelled clips."""
 
-import csv
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..errors import MienError, unknown
 from . import arguments as a
-from .report import complain, located, note, progress, show_json
+from .labels import Named, labelled
+from .report import complain, located, note, number, progress, show_json, show_table
 
 if TYPE_CHECKING:
     from ..emotion.circumplex import Point
@@ -18,8 +17,14 @@ if TYPE_CHECKING:
     from ..motion import Motion
 
 WHAT = ("emotion",)
-COLUMNS = ("file", "label", "content", "performer")
 SCORES = "scores on contents left out"
+SAID = {
+    "top-1": "takes whose label is the likeliest",
+    "top-1, acted": "  without the neutral takes",
+    "quadrant": "takes in the right quadrant, of labels with a place",
+    "distance": "mean distance on the disc, of labels with a place",
+}
+WAYS = {"change": "with a neutral clip", "alone": "without one", "laban": "Laban features"}
 
 
 def learn(
@@ -70,8 +75,10 @@ def learn(
         refuse_existing([out])
     files.check_folder(out.parent)
     found = [clip.path for clip in expand(clips)]
-    named = _renamed(list(_labelled(found, labels)), rename or [], neutral)
+    named = _renamed(list(labelled(found, labels)), rename or [], neutral)
+    _check(named, neutral)
     places = _places(place or [], {clip.label for clip in named})
+    _check_contents(named, places)
     failed: list[Path] = []
     takes = measure_takes(_opened(named, failed))
     card = {"source": source, "licence": licence, **_card(takes, place or [], scores(takes, places))}
@@ -80,12 +87,65 @@ def learn(
     if as_json:
         show_json({"model": str(out), **card})
     else:
-        for name, value in card[SCORES].items():
-            typer.echo(f"{name:<22}{value:g}")
+        _say(card, {"neutral"} | set(places))
         typer.echo(str(out))
     if failed:
         note(f"{len(named) - len(failed)} of {len(named)} clips learned from, {len(failed)} failed")
         raise typer.Exit(1)
+
+
+def _say(card: Mapping[str, Any], placed: set[str]) -> None:
+    """Print what was learned from, and how well contents are read that were not seen."""
+    found = card[SCORES]
+    labels = [label if label in placed else f"{label} (no place)" for label in card["labels"]]
+    typer.echo(f"{card['takes']} takes of {', '.join(card['contents'])}")
+    typer.echo(f"labels: {', '.join(labels)}")
+    rows = [
+        (said, *[number(found[f"{way} {score}"]) if f"{way} {score}" in found else "" for way in WAYS])
+        for score, said in SAID.items()
+    ]
+    show_table((SCORES, *WAYS.values()), [row for row in rows if any(row[1:])], whole=True)
+    typer.echo(f"guessing a label would be right in {found['chance']:.2f}")
+
+
+def _check(named: Sequence[Named], neutral: str) -> None:
+    """Raise ``MienError`` where there is too little to learn from, before any clip is read.
+
+    Says which contents have no neutral take, and so teach nothing.
+    """
+    from ..emotion.model import NEUTRAL
+
+    labels = sorted({clip.label for clip in named})
+    if NEUTRAL not in labels:
+        raise MienError(f"--neutral: no clip is labelled {neutral!r} (labels found: {', '.join(labels)})")
+    rested = {(clip.content, clip.performer) for clip in named if clip.label == NEUTRAL}
+    usable = [clip for clip in named if (clip.content, clip.performer) in rested]
+    has, gone = (
+        sorted({clip.content or "(no content)" for clip in named if (clip in usable) is there})
+        for there in (True, False)
+    )
+    if len({clip.label for clip in usable} - {NEUTRAL}) < 2:
+        without = f"; without one: {', '.join(gone)}" if gone else ""
+        raise MienError(
+            "to learn takes two or more labels besides the neutral one, with a neutral take of the same "
+            f"content and performer for each; contents with one: {', '.join(has)}{without}; "
+            f"labels: {', '.join(labels)}"
+        )
+    if gone:
+        note(f"mien: note: left out, as there is no neutral take: {', '.join(gone)}")
+
+
+def _check_contents(named: Sequence[Named], places: "Mapping[str, Point]") -> None:
+    """Raise ``MienError`` unless what one content teaches can be tried on another."""
+    from ..emotion.model import NEUTRAL
+
+    rested = {(clip.content, clip.performer) for clip in named if clip.label == NEUTRAL}
+    acted = {c.content for c in named if c.label in set(places) - {NEUTRAL} and c[2:] in rested}
+    if len(acted) < 2:
+        raise MienError(
+            "how well contents are read that were not seen needs two or more contents with a neutral take "
+            f"and takes of labels with a place; there is {', '.join(sorted(acted)) or 'none'}"
+        )
 
 
 def _card(takes: "Sequence[Take]", told: Sequence[str], quality: Mapping[str, float]) -> dict[str, Any]:
@@ -100,69 +160,7 @@ def _card(takes: "Sequence[Take]", told: Sequence[str], quality: Mapping[str, fl
     }
 
 
-class _Named(NamedTuple):
-    """A clip and what is said of it."""
-
-    path: Path
-    label: str
-    content: str
-    performer: str
-
-
-def _labelled(found: Sequence[Path], labels: str) -> Iterator[_Named]:
-    """Yield the clips that have a label."""
-    says = _table(Path(labels)) if labels.lower().endswith(".csv") else _pattern(labels)
-    seen = False
-    for path in found:
-        about = says(path)
-        if about and about.get("label"):
-            seen = True
-            yield _Named(path, *(about.get(key) or "" for key in COLUMNS[1:]))
-    if not seen:
-        raise MienError(f"--labels {labels} says nothing about any of the {len(found)} clips")
-
-
-def _table(path: Path) -> Callable[[Path], Mapping[str, str] | None]:
-    """Return what finds the line of a clip: that whose file name, with its folders, is the clip's."""
-    from .inputs import existing
-
-    try:
-        with existing(path).open(encoding="utf-8-sig", newline="") as file:
-            rows = list(csv.DictReader(file))
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise MienError(f"{path}: is no table of text ({error})") from None
-    if not rows or not {"file", "label"} <= set(rows[0]):
-        raise MienError(f"{path}: needs a first line with the columns {', '.join(COLUMNS)}")
-    named: dict[str, list[tuple[tuple[str, ...], dict[str, str]]]] = {}
-    for row in rows:
-        parts = Path(row["file"] or "").parts
-        if parts:
-            named.setdefault(parts[-1], []).append((parts, row))
-
-    def says(clip: Path) -> dict[str, str] | None:
-        whole = clip.resolve().parts
-        fits = [(len(p), row) for p, row in named.get(clip.name, []) if whole[-len(p) :] == p]
-        return max(fits, key=lambda fit: fit[0])[1] if fits else None
-
-    return says
-
-
-def _pattern(pattern: str) -> Callable[[Path], Mapping[str, str] | None]:
-    try:
-        compiled = re.compile(pattern)
-    except re.error as error:
-        raise MienError(f"--labels: {pattern!r} is no pattern: {error}") from None
-    if "label" not in compiled.groupindex:
-        raise MienError(f"--labels: {pattern!r} must say where the label is: (?P<label>...)")
-
-    def says(clip: Path) -> dict[str, str] | None:
-        match = compiled.search(clip.stem)
-        return match.groupdict() if match else None
-
-    return says
-
-
-def _renamed(named: Sequence[_Named], rename: Sequence[str], neutral: str) -> list[_Named]:
+def _renamed(named: Sequence[Named], rename: Sequence[str], neutral: str) -> list[Named]:
     """Return the clips with their labels as told, and the neutral ones called so."""
     from ..emotion.model import NEUTRAL
 
@@ -190,8 +188,10 @@ def _places(given: Sequence[str], labels: set[str]) -> "Mapping[str, Point]":
             raise MienError("--place: " + unknown("label", label, labels))
         found[label] = _coordinates(where) or point(where)
     if len(set(found) - {"neutral"}) < 2:
+        none = ", ".join(sorted(labels - set(found)))
         raise MienError(
-            "two or more labels need a place on the disc: give them with --place LABEL=VALENCE,AROUSAL"
+            "two or more labels besides the neutral one need a place on the disc: give them with "
+            f"--place LABEL=VALENCE,AROUSAL or --place LABEL=WORD (no place yet: {none})"
         )
     return found
 
@@ -211,7 +211,7 @@ def _coordinates(text: str) -> "Point | None":
     return clamp(*numbers)
 
 
-def _opened(named: Sequence[_Named], failed: list[Path]) -> "Iterator[tuple[Motion, str, str, str]]":
+def _opened(named: Sequence[Named], failed: list[Path]) -> "Iterator[tuple[Motion, str, str, str]]":
     """Yield the motions with what is said of them; what cannot be used is told, and noted in ``failed``."""
     from ..kinematics.body import Body
 

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import typer
 
 T = TypeVar("T")
+WHOLE = 10_000  # columns: more than any name of a file
 PIPE_WIDTH = 100  # columns of a table where neither a terminal nor COLUMNS says how wide
 
 
@@ -37,9 +38,17 @@ def show_json(data: Any) -> None:
 
 
 def show_table(
-    columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: str = "", numbers: int = 1
+    columns: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    *,
+    title: str = "",
+    numbers: int = 1,
+    whole: bool = False,
 ) -> None:
-    """Print a table for a person; columns from ``numbers`` on are right-aligned."""
+    """Print a table for a person; columns from ``numbers`` on are right-aligned.
+
+    ``whole`` leaves lines as long as they are, so that names of files can be copied.
+    """
     from rich.console import Console
     from rich.table import Table
 
@@ -55,7 +64,7 @@ def show_table(
         table.add_column(column, justify="right" if index >= numbers else "left", overflow="fold")
     for row in rows:
         table.add_row(*row)
-    width = get_terminal_size((PIPE_WIDTH, 24)).columns
+    width = WHOLE if whole else get_terminal_size((PIPE_WIDTH, 24)).columns
     console = Console(width=width, highlight=False, markup=False)
     with console.capture() as shown:
         console.print(table)

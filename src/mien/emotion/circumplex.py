@@ -102,6 +102,19 @@ def quadrant(valence: float, arousal: float) -> str | None:
     return "Q3" if valence >= 0.0 else "Q4"
 
 
+def described(valence: float, arousal: float) -> str:
+    """Return where a point is in words; what is hardly there in one direction is left out.
+
+    >>> described(0.8, 0.5), described(0.04, -0.6), described(0.0, 0.05)
+    ('intense and pleasant', 'mild', 'neutral')
+    """
+    name = quadrant(valence, arousal)
+    if name is None:
+        return "neutral"
+    sizes = zip((arousal, valence), QUADRANTS[name].split(" and "), strict=True)
+    return " and ".join(word for size, word in sizes if abs(size) >= CENTRE) or QUADRANTS[name]
+
+
 ORIGIN = Point(0.0, 0.0)  # where nothing is expressed
 
 

@@ -6,13 +6,17 @@ from typing import Any
 
 from ..analysis.manner import Manner, change_between, difference
 from ..analysis.manner_features import FEATURES, manner_features
+from ..errors import MienError
 from ..motion import Motion, require_motion
 from ..typing import Array
-from .circumplex import QUADRANTS, Point, nearest, quadrant
+from .circumplex import QUADRANTS, Point, described, nearest, quadrant
 from .model import NEUTRAL, EmotionModel, shipped_model
 
 REASONS = 6
+LIKELY, RARE = 4, 0.02  # labels to name, and the probability below which none is
 CLEAR = 0.25  # of what is usual: smaller changes are no reason
+SEEN = 0.3  # 3 degrees, a tenth of a movement, 1 % of a leg: what nobody sees is no reason either
+HARDLY = 0.5  # share of what is read: with less of it on the disc, the place says little
 
 
 @dataclass(frozen=True)
@@ -34,7 +38,8 @@ class Reading:
     ``place`` on the disc, ``labels`` with their probabilities, the likeliest first, ``why`` the first of
     them, the strongest reason first. ``against`` says with what it was compared: ``neutral``, the person's
     own clip, or ``usual``, how people usually are, which is a guess. ``manner`` (F,) is what differs from
-    that, in units of what is usual: a point in the space where manners are compared.
+    that, in units of what is usual: a point in the space where manners are compared. ``placed`` is the share
+    of the labels' probabilities that has a place on the disc: ``place`` is the mean of that share only.
     """
 
     place: Point
@@ -42,6 +47,10 @@ class Reading:
     why: tuple[Reason, ...]
     against: str
     manner: Array = field(repr=False)
+    placed: float = 1.0
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines())
 
     def _repr_html_(self) -> str:
         """Return the disc, the labels and the reasons for notebooks; the front door knows who draws them."""
@@ -60,6 +69,23 @@ class Reading:
         found = quadrant(*self.place)
         return QUADRANTS[found] if found else NEUTRAL
 
+    @property
+    def hardly_placed(self) -> bool:
+        """Whether most of what it is like has no place on the disc, so that ``place`` says little."""
+        return self.placed < HARDLY
+
+    def lines(self) -> list[str]:
+        """Return everything in words, for a person."""
+        valence, arousal = self.place
+        first = next(iter(self.labels))
+        said = [f"valence {valence:+.2f}, arousal {arousal:+.2f}: {described(valence, arousal)}"]
+        if self.hardly_placed:
+            said[0] += f" (of {100.0 * self.placed:.0f} % only: {first!r} has no place on the disc)"
+        said.append(f"nearest words: {', '.join(self.words)}")
+        likely = [f"{label} {100.0 * p:.0f} %" for label, p in list(self.labels.items())[:LIKELY] if p > RARE]
+        said.append(f"acted like: {', '.join(likely)}")
+        return [*said, *([f"because: {'; '.join(map(str, self.why))}"] if self.why else [])]
+
     def as_data(self) -> dict[str, Any]:
         """Return everything as plain data, for JSON."""
         return {
@@ -68,6 +94,7 @@ class Reading:
             "quadrant": self.quadrant,
             "words": list(self.words),
             "labels": {label: round(p, 4) for label, p in self.labels.items()},
+            "placed": round(self.placed, 4),
             "against": self.against,
             "why": [{"what": r.what, "how_much": r.how_much, "pull": round(r.pull, 3)} for r in self.why],
         }
@@ -87,6 +114,8 @@ def read(motion: Motion, *, neutral: Motion | None = None, model: EmotionModel |
     >>> read(mien.edit(walk, "sad")).quadrant
     'mild and unpleasant'
     """
+    if not isinstance(model, EmotionModel | None):
+        raise MienError(f"model: give a learned model (mien.load_model reads one), not {model!r:.60}")
     model, motion = model or shipped_model(), require_motion(motion)
     before = motion.reference if neutral is None else require_motion(neutral)
     if before is None:
@@ -98,8 +127,11 @@ def read(motion: Motion, *, neutral: Motion | None = None, model: EmotionModel |
     labels = manners.probabilities(numbers)
     first = next(iter(labels))
     unusual, pulls = manners.scaled(numbers), manners.pulls(numbers, first)
-    order = [i for i in (-pulls).argsort() if pulls[i] > 0.0 and abs(unusual[i]) > CLEAR][:REASONS]
     off = numbers - manners.middle
-    why = tuple(Reason(FEATURES[i].label, FEATURES[i].said(float(off[i])), float(pulls[i])) for i in order)
+    clear = (pulls > 0.0) & (abs(unusual) > CLEAR) & (abs(off) > SEEN)
+    order = [i for i in (-pulls).argsort() if clear[i]][:REASONS]
+    said = [(*FEATURES[i].said(float(off[i])), float(pulls[i])) for i in order]
+    why = tuple(Reason(what, how_much, pull) for what, how_much, pull in said)
     against = "usual" if before is None else "neutral"
-    return Reading(model.place(labels), labels, why, against, unusual)
+    placed = min(float(sum(labels[label] for label in model.places)), 1.0)
+    return Reading(model.place(labels), labels, why, against, unusual, placed)

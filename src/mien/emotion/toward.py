@@ -6,7 +6,7 @@ al. (2017), which need a learned model (``synthesis``). What comes out can be re
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, cast
 
 import numpy as np
@@ -30,12 +30,16 @@ NOWHERE = Point(0.0, 0.0)
 
 @dataclass(frozen=True)
 class Aim:
-    """Where to: the place ``to``, from ``start``, in which way, and what it is called."""
+    """Where to: the place ``to``, from ``start``, in which way, and what it is called.
+
+    ``model`` is a learned one, for the ways that need it and for what is ``reached``; else the shipped one.
+    """
 
     to: Point
     start: Point = NOWHERE
     method: Method = "recipe"
     name: str = "aimed"
+    model: EmotionModel | None = None
 
     def recipe(self, motion: Motion) -> Recipe:
         """Return the recipe that moves a motion there; without steps where it is there already."""
@@ -45,19 +49,21 @@ class Aim:
         if self.method != "recipe":
             from .synthesis import synthesise
 
-            return synthesise(motion, self.to, start=self.start, method=self.method)
+            return synthesise(motion, self.to, start=self.start, method=self.method, model=self.model)
         if self.start == NOWHERE and self.name in OWN:
             return preset(self.name)
         return Recipe(self.name, recipe_at(*self.to, start=self.start).steps, safe=True)
 
     def reached(self, before: Motion, after: Motion, *, model: EmotionModel | None = None) -> str:
         """Return in words what was asked for and what a learned model reads in the result."""
-        found = read(after, neutral=before, model=model)
+        found = read(after, neutral=before, model=model or self.model)
         valence, arousal = np.add(self.start, found.place)
         away = float(np.hypot(self.to.valence - valence, self.to.arousal - arousal))
+        first = next(iter(found.labels))
+        like = first if self.start == NOWHERE else f"the change is like {first}"
         return (
             f"asked for valence {self.to.valence:+.2f}, arousal {self.to.arousal:+.2f}; it reads as "
-            f"{valence:+.2f}, {arousal:+.2f} ({next(iter(found.labels))}), {away:.2f} away"
+            f"{valence:+.2f}, {arousal:+.2f} ({like}), {away:.2f} away"
         )
 
 
@@ -99,7 +105,8 @@ def aim(
         place = clamp(here.valence + valence, here.arousal + arousal)
         return Aim(place, here, cast(Method, method), f"by {valence:g},{arousal:g}")
     if to is None or by is not None:
-        raise RecipeError("say where to: a word or a point (to), or by how much (by), not both")
+        both = ", not both" if by is not None else ""
+        raise RecipeError(f"say where to: a word or a point (to=...), or by how much (by=...){both}")
     place = _place(to)
     name = to if isinstance(to, str) else f"at {place.valence:g},{place.arousal:g}"
     return Aim(place, here, cast(Method, method), name)
@@ -112,17 +119,19 @@ def toward(
     by: Sequence[float] | None = None,
     start: str | Point | Sequence[float] | None = None,
     method: str = "recipe",
+    model: EmotionModel | None = None,
     strength: Strength = 1.0,
     safe: bool | None = None,
 ) -> Motion:
     """Return the motion moved to a place on the circumplex; arguments as in ``aim`` and ``edit``.
 
-    ``strength`` 0 is the motion itself. Raises ``RecipeError`` for what is unknown, ``BodyError`` where no
+    ``strength`` 0 is the motion itself. ``model`` is a learned one, for ``method`` ``"rules"`` and
+    ``"joint"``. Raises ``RecipeError`` for what is unknown, ``BodyError`` where no
     body is found.
 
     >>> mien.toward(walk, to="bored"), mien.toward(walk, to=(0.6, -0.2)), mien.toward(walk, by=(0.3, 0))
     """
-    recipe = aim(to=to, by=by, start=start, method=method).recipe(motion)
+    recipe = replace(aim(to=to, by=by, start=start, method=method), model=model).recipe(motion)
     return edit(motion, recipe, strength=strength, safe=safe)
 
 

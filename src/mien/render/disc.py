@@ -36,7 +36,8 @@ CORNERS = {
 }
 LEGEND = (
     "Pleasant to the right, intense upwards; rest the pointer on a dot for its name. A filled dot was read "
-    "against a neutral clip, a ring is a guess. Clips at the same place are drawn beside each other."
+    "against a neutral clip, a ring is a guess. A grey one is like something that has no place on the disc, "
+    "so its place says little. Clips at the same place are drawn beside each other."
 )
 STYLE = (
     ":root{color-scheme:light dark}"
@@ -50,20 +51,24 @@ STYLE = (
 
 @dataclass(frozen=True)
 class Dot:
-    """A clip on the disc: its ``name``, place, what else is said of it, and whether that is a guess."""
+    """A clip on the disc: its ``name``, place, what else is said of it, and whether that is a guess.
+
+    ``faint`` is a place that says little, because most of what the clip is like has none on the disc.
+    """
 
     name: str
     valence: float
     arousal: float
     said: str = ""
     guess: bool = False
+    faint: bool = False
 
     @classmethod
     def of(cls, name: str, reading: "Reading") -> Self:
         """Return the dot of a clip that was read."""
         first = [(label, p) for label, p in reading.labels.items() if p > CLEAR][:3]
         likely = ", ".join(f"{label} {100 * p:.0f} %" for label, p in first)
-        return cls(name, *reading.place, likely, reading.against != "neutral")
+        return cls(name, *reading.place, likely, reading.against != "neutral", reading.hardly_placed)
 
 
 def disc(dots: Sequence[Dot], *, width: int = 1200) -> "Image":
@@ -84,7 +89,8 @@ def disc_page(dots: Sequence[Dot], *, title: str = "Clips by what they express")
     """Return a whole page (HTML) with the disc and a table of the clips; it needs nothing else."""
     rows = "\n".join(
         f"<tr><td>{escape(dot.name)}</td><td>{dot.valence:+.2f}</td><td>{dot.arousal:+.2f}</td>"
-        f"<td>{escape(dot.said)}</td><td>{'a guess' if dot.guess else 'against a neutral clip'}</td></tr>"
+        f"<td>{escape(dot.said)}</td><td>{'a guess' if dot.guess else 'against a neutral clip'}"
+        f"{', place unsure' if dot.faint else ''}</td></tr>"
         for dot in dots
     )
     head = "<tr><th>clip</th><th>valence</th><th>arousal</th><th>acted like</th><th>read</th></tr>"
@@ -116,7 +122,7 @@ def disc_shapes(dots: Sequence[Dot], *, size: float = SIZE) -> list[Shape]:
     shapes += _words(labels, middle, reach, letters)
     for dot, (x, y) in zip(dots, places, strict=True):
         said = f"{dot.name}\n{dot.said}".strip()
-        ink = "other" if dot.guess else "mark"
+        ink = "faint" if dot.faint else "other" if dot.guess else "mark"
         shapes.append(Round(float(x), float(y), radius, ink, not dot.guess, said))
     return shapes + [name for name in named if name]
 

@@ -30,10 +30,11 @@ def reading_html(reading: Reading) -> str:
     """Return what a motion expresses: its place on the disc, and bars for labels and reasons."""
     rows: list[Shape] = []
     against = "its neutral clip" if reading.against == "neutral" else "how people usually move: a guess"
-    place = f"valence {reading.place.valence:+.2f}, arousal {reading.place.arousal:+.2f}: {reading.quadrant}"
-    _line(rows, place)
+    place, words = reading.lines()[:2]
+    for line in place.split(" (", 1):
+        _line(rows, line.rstrip(")"))
     _line(rows, f"against {against}", ink="faint")
-    _line(rows, f"nearest words: {', '.join(reading.words)}", ink="faint")
+    _line(rows, words, ink="faint")
     _line(rows, "acted like", gap=True)
     for label, p in [item for item in reading.labels.items() if item[1] > LEAST][:SHOWN]:
         _bar(rows, label, p, f"{100 * p:.0f} %")
