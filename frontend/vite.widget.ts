@@ -7,6 +7,12 @@ export default defineConfig({
     target: "es2022",
     outDir: "../src/mien/studio/static",
     emptyOutDir: false,
-    lib: { entry: "src/widget.ts", formats: ["es"], fileName: "widget" },
+    modulePreload: false,
+    chunkSizeWarningLimit: 1200,
+    rollupOptions: {
+      input: "src/widget.ts",
+      preserveEntrySignatures: "strict",
+      output: { format: "es", entryFileNames: "widget.js" },
+    },
   },
 });

@@ -1,5 +1,49 @@
 // Made by `python scripts/messages.py` from src/mien/studio/messages.py; do not edit.
 
+/** A motion for the page, the head of a binary answer. */
+export interface Frames {
+  clip: string;
+  name: string;
+  frames: number;
+  frame_time: number;
+  joints: string[];
+  parents: number[];
+  moving: number[];
+  drawn: number[];
+  tips: number[];
+  tip_offsets: number[][];
+  metres: number;
+  up: number[];
+  forward: number[];
+  left: number[];
+  floor: number;
+  shape: Shape | null;
+  arrays: PlaceInArrays[];
+  steps: string[];
+  notes: string[];
+  seconds: number;
+}
+
+/** Where an array of a binary answer is: bytes from the start of the arrays, its type and its shape. */
+export interface PlaceInArrays {
+  name: string;
+  type: "float32" | "uint8";
+  start: number;
+  shape: number[];
+}
+
+/** What a mannequin needs of a body: roles, the neutral stance in world axes, and measures. */
+export interface Shape {
+  roles: Record<string, number>;
+  spine: number[];
+  leg_length: number;
+  height: number;
+  stance_rotations: number[][];
+  stance_positions: number[][];
+  sole_depth: number[];
+  sole_length: number[];
+}
+
 /** One layer of the stack. */
 export interface Layer {
   id: string;
@@ -37,48 +81,6 @@ export interface ExportRequest {
   stack: Stack;
   kind: "bvh" | "recipe" | "png" | "gif" | "mp4" | "html" | "project";
   options: Record<string, boolean | number | string | string[] | number[][] | null>;
-}
-
-/** Where an array of a binary answer is: bytes from the start of the arrays, its type and its shape. */
-export interface PlaceInArrays {
-  name: string;
-  type: "float32" | "uint8";
-  start: number;
-  shape: number[];
-}
-
-/** What a mannequin needs of a body: roles, the neutral stance in world axes, and measures. */
-export interface Shape {
-  roles: Record<string, number>;
-  spine: number[];
-  leg_length: number;
-  height: number;
-  stance_rotations: number[][];
-  stance_positions: number[][];
-  sole_depth: number[];
-  sole_length: number[];
-}
-
-/** A motion for the page, the head of a binary answer. */
-export interface Frames {
-  clip: string;
-  name: string;
-  frames: number;
-  frame_time: number;
-  joints: string[];
-  parents: number[];
-  moving: number[];
-  drawn: number[];
-  metres: number;
-  up: number[];
-  forward: number[];
-  left: number[];
-  floor: number;
-  shape: Shape | null;
-  arrays: PlaceInArrays[];
-  steps: string[];
-  notes: string[];
-  seconds: number;
 }
 
 /** A clip that is open. */

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from .motion import Skeleton as Skeleton
     from .recipe import Recipe as Recipe
     from .recipe import Step as Step
+    from .studio.widget import show as show
     from .styles.grid import Grid as Grid
     from .styles.grid import grid as grid
     from .styles.multitarget import blend as blend
@@ -75,6 +76,7 @@ _HOME = {
     "render": ".",
     "samples": ".",
     "save": ".formats",
+    "show": ".studio.widget",
     "toward": ".emotion.toward",
     "like": ".emotion.toward",
     "write_recipe": ".emotion.files",

@@ -1,4 +1,4 @@
-"""``mien render``: pictures and films of clips."""
+"""``mien render``: pictures, films and pages of clips."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -14,14 +14,18 @@ if TYPE_CHECKING:
 
     from ..motion import Motion
 
-PICTURES, FILMS = (".png",), (".gif", ".mp4")
+PICTURES, FILMS, PAGES = (".png",), (".gif", ".mp4"), (".html",)
 
 
 def render(
     clips: a.Clips,
     out: Annotated[
         Path | None,
-        typer.Option("--out", "-o", help="A .png picture, a .gif or .mp4 film, or a folder for pictures."),
+        typer.Option(
+            "--out",
+            "-o",
+            help="A .png picture, a .gif or .mp4 film, an .html page that plays, or a folder for pictures.",
+        ),
     ] = None,
     against: Annotated[
         Path | None, typer.Option(help="Another clip, such as the original, drawn as a ghost.")
@@ -42,18 +46,23 @@ def render(
     salvage: a.Salvage = False,
     map_file: a.MapFile = None,
 ) -> None:
-    """Draw clips: a strip of poses (PNG) or a film (GIF, MP4), with the original as a ghost.
+    """Draw clips, with the original as a ghost: a strip of poses (PNG), a film (GIF, MP4) or a page (HTML).
+
+    The page plays in any browser, without a network: turn the figure, step through frames, compare.
 
     mien render walk_sad.bvh --against walk.bvh -o walk_sad.png
 
     mien render walk_sad.bvh --against walk.bvh -o walk_sad.gif
+
+    mien render walk_sad.bvh --against walk.bvh -o walk_sad.html
     """
     from .inputs import expand, outputs, refuse_existing
 
     found = expand(clips)
     suffix = out.suffix.lower() if out and out.suffix and not out.is_dir() else ".png"
-    if suffix not in (*PICTURES, *FILMS):
-        raise MienError(f"{out}: a picture is {', '.join(PICTURES)}, a film {' or '.join(FILMS)}")
+    if suffix not in (*PICTURES, *FILMS, *PAGES):
+        kinds = f"a picture is {PICTURES[0]}, a film {' or '.join(FILMS)}, a page {PAGES[0]}"
+        raise MienError(f"{out}: {kinds}")
     targets = outputs(found, out, label="strip", suffix=suffix, doing="render")
     if not force:
         refuse_existing(targets)
@@ -71,12 +80,10 @@ def render(
         target.parent.mkdir(parents=True, exist_ok=True)
         if suffix in FILMS:
             _film(motion, target, other, seen, ghost, force)
+        elif suffix in PAGES:
+            _page(motion, target, other)
         else:
-            from ..render import strip
-
-            shown = seen or ("side", "front")
-            picture = strip(motion, against=other, poses=poses, views=shown, width=width, travel=travel)
-            save_picture(picture, target)
+            _strip(motion, target, other, seen or ["side", "front"], poses, width, travel)
         typer.echo(str(target))
     if failed:
         raise typer.Exit(2 if failed == len(found) else 1)
@@ -102,6 +109,27 @@ def _film(
         raise MienError("a film shows one view, such as --views three-quarter")
     view = views[0] if views else "three-quarter"
     animate(motion, target, against=other, beside=not ghost, view=view, force=force)
+
+
+def _strip(
+    motion: "Motion",
+    target: Path,
+    other: "Motion | None",
+    views: list[str],
+    poses: int,
+    width: int,
+    travel: bool,
+) -> None:
+    from ..render import strip
+
+    save_picture(strip(motion, against=other, poses=poses, views=views, width=width, travel=travel), target)
+
+
+def _page(motion: "Motion", target: Path, other: "Motion | None") -> None:
+    from ..formats import files
+    from ..render import page
+
+    files.write(target, page(motion, against=other, title=target.stem).encode())
 
 
 def save_picture(picture: "Image", target: Path) -> None:

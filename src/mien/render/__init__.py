@@ -1,8 +1,9 @@
-"""Pictures and films of motion: a mannequin seen from any side, without a graphics card."""
+"""Pictures and films of motion without a graphics card, and pages that play it in a browser."""
 
 from .animate import animate
 from .disc import Dot, disc, disc_page
 from .notebook import features_html, reading_html, strip_html
+from .page import page
 from .strip import compare, strip
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "disc",
     "disc_page",
     "features_html",
+    "page",
     "reading_html",
     "strip",
     "strip_html",

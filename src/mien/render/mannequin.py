@@ -216,7 +216,7 @@ def _trunk(build: _Builder) -> None:
     middle, top = 0.5 * (hips[0] + hips[1]), _trunk_top(build)
     line = np.stack([middle, *(build.positions[:, j] for j in build.body.spine[1:]), top], axis=1)
     wide = [_unit(hips[0] - hips[1]), _unit(shoulders[0] - shoulders[1])]
-    length = float(np.median(np.linalg.norm(top - middle, axis=1))) / build.unit
+    length = _trunk_length(build)
     ribs = float(np.clip(0.43 * _width(build, "shoulder"), 0.13, 0.22))
     pelvis = float(np.clip(0.5 * _width(build, "hip") + 0.075, 0.13, 0.20))
     for share, half in (
@@ -235,6 +235,14 @@ def _trunk(build: _Builder) -> None:
 def _trunk_top(build: _Builder) -> Array:
     """Return the middle between the shoulders: skeletons differ in where their neck begins."""
     return 0.5 * (build.at("left_shoulder") + build.at("right_shoulder"))
+
+
+def _trunk_length(build: _Builder) -> float:
+    """Return how far the middle of the shoulders is from that of the hips in the stance, in leg lengths."""
+    hips, shoulders = (
+        sum(build.stance[build.roles[f"{side}_{role}"]] for side in SIDES) for role in ("hip", "shoulder")
+    )
+    return 0.5 * float(np.linalg.norm(shoulders - hips)) / build.unit
 
 
 def _width(build: _Builder, role: str) -> float:

@@ -3,11 +3,15 @@
 The page's TypeScript types are made from it: ``scripts/messages.py`` writes ``frontend/src/messages.ts``, and
 a test sees that both agree. Lengths are in the clip's own unit, times in seconds, quaternions ``xyzw``.
 Arrays do not travel as JSON: ``Frames`` is the head of a binary answer, which says where each of them starts
-(``wire``).
+(``render.wire``).
 """
 
 from dataclasses import dataclass, field
 from typing import Any, Literal
+
+from ..render.wire import Frames as Frames
+from ..render.wire import PlaceInArrays as PlaceInArrays
+from ..render.wire import Shape as Shape
 
 # Of a parameter; pairs of numbers are a keyed curve.
 Value = bool | int | float | str | list[str] | list[list[float]] | None
@@ -70,64 +74,6 @@ class ExportRequest:
     stack: Stack
     kind: ExportKind
     options: dict[str, Value] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class PlaceInArrays:
-    """Where an array of a binary answer is: bytes from the start of the arrays, its type and its shape."""
-
-    name: str
-    type: Literal["float32", "uint8"]
-    start: int
-    shape: list[int]
-
-
-@dataclass(frozen=True)
-class Shape:
-    """What a mannequin needs of a body: roles, the neutral stance in world axes, and measures.
-
-    ``stance_rotations`` (J, 4) and ``stance_positions`` (J, 3); ``sole_depth`` and ``sole_length`` of the
-    left and right foot in leg lengths.
-    """
-
-    roles: dict[str, int]
-    spine: list[int]
-    leg_length: float
-    height: float
-    stance_rotations: list[list[float]]
-    stance_positions: list[list[float]]
-    sole_depth: list[float]
-    sole_length: list[float]
-
-
-@dataclass(frozen=True)
-class Frames:
-    """A motion for the page, the head of a binary answer.
-
-    Arrays: ``rotations`` (T, J, 4) from child to parent, ``translations`` (T, M, 3) of the ``moving`` joints,
-    ``offsets`` (J, 3) of all, ``contacts`` (T, 2) left and right foot, 1 while it stands. ``shape`` is None
-    where no body is found: then sticks are drawn between the ``drawn`` joints. ``steps`` is what was done,
-    ``notes`` what has to be said about it, ``seconds`` what it took.
-    """
-
-    clip: str
-    name: str
-    frames: int
-    frame_time: float
-    joints: list[str]
-    parents: list[int]
-    moving: list[int]
-    drawn: list[int]
-    metres: float
-    up: list[float]
-    forward: list[float]
-    left: list[float]
-    floor: float
-    shape: Shape | None
-    arrays: list[PlaceInArrays] = field(default_factory=list)
-    steps: list[str] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
-    seconds: float = 0.0
 
 
 @dataclass(frozen=True)
