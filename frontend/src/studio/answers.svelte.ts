@@ -103,6 +103,12 @@ export class Answers {
     if (!this.#clip || !this.original?.head.shape) return;
     this.#readings.ask(this.#request(stack, false), true);
     this.#checks.ask(this.#request(stack, false), true);
+    this.draw(stack, curves);
+  }
+
+  /** Ask for curves. */
+  draw(stack: Stack, curves: readonly string[]): void {
+    if (!this.#clip || !this.original?.head.shape) return;
     this.#curves.ask({ clip: this.#clip, stack, names: [...curves] }, true);
   }
 

@@ -11,6 +11,9 @@ import { Keeper, Tabs, keptHere, newer, type Keeping } from "./project";
 import * as stacks from "./stack";
 import { freshView, readView, type View } from "./view";
 
+/** Milliseconds in which a second change of the same kind belongs to the first. */
+const QUICK = 600;
+
 type StackHistory = histories.History<Stack>;
 
 /** Which dialog is open. */
@@ -46,6 +49,7 @@ export class Studio {
   readonly #connection: Connection;
   readonly #keeper: Keeper;
   #tabs: Tabs | undefined;
+  #lately = { label: "", at: 0 };
 
   constructor(
     readonly api: Api,
@@ -132,8 +136,13 @@ export class Studio {
     const moving = this.#history.gesture === label;
     const next = to(this.stack);
     if (!moving && JSON.stringify(next) === JSON.stringify(this.stack)) return;
-    const changed = histories.changed(this.#history, next, label, done && !moving ? "" : label);
+    // Arrow keys that are held or tapped quickly are one movement too.
+    const now = performance.now();
+    const again = done && !moving && this.#goesOn(label, next, now);
+    const before = again ? { ...this.#history, gesture: label } : this.#history;
+    const changed = histories.changed(before, next, label, done && !moving && !again ? "" : label);
     this.#put(done ? histories.settled(changed) : changed);
+    this.#lately = { label, at: now };
     if (!stacks.find(next, this.selected)) this.selected = next.layers.at(-1)?.id ?? "";
     this.answers.edit(next, !done);
     if (done) this.keep();
@@ -188,7 +197,7 @@ export class Studio {
   /** Change how things are shown. */
   show(fields: Partial<View>): void {
     Object.assign(this.view, fields);
-    if (fields.curves) this.answers.measure(this.stack, this.view.curves);
+    if (fields.curves) this.answers.draw(this.stack, this.view.curves);
     this.keep();
   }
 
@@ -239,9 +248,17 @@ export class Studio {
     this.second = this.#keeper.paused = true;
   }
 
+  /** Whether a change follows so soon on one of the same kind that both are one step. */
+  #goesOn(label: string, next: Stack, now: number): boolean {
+    const { past, present } = this.#history;
+    const same = present.label === label && this.#lately.label === label && past.length > 0;
+    return same && now - this.#lately.at < QUICK && next.layers.length === this.stack.layers.length;
+  }
+
   #goTo(history: StackHistory): void {
     if (history === this.#history) return;
     this.#put(history);
+    this.#lately = { label: "", at: 0 };
     if (!stacks.find(this.stack, this.selected)) this.selected = this.stack.layers.at(-1)?.id ?? "";
     this.answers.edit(this.stack, false);
     this.keep();
