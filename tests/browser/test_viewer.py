@@ -158,6 +158,37 @@ def test_the_mouse_turns_slides_and_comes_nearer(opened: Open, address: str) -> 
     assert near == pytest.approx([x, y], abs=25)  # what is under the cursor stays there
 
 
+def test_two_fingers_come_nearer_and_one_turns(opened: Open, address: str) -> None:
+    page = opened(address, has_touch=True)
+    before = page.evaluate(f"{V}.camera.state")
+    session = page.context.new_cdp_session(page)
+
+    def touch(kind: str, *points: tuple[int, int]) -> None:
+        fingers = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+
+    touch("touchStart", (250, 150), (350, 150))
+    touch("touchMove", (200, 150), (400, 150))
+    touch("touchEnd")
+    near = page.evaluate(f"{V}.camera.state")
+    assert near[2] < 0.7 * before[2]
+    assert near[:2] == before[:2]
+    touch("touchStart", (250, 150))
+    touch("touchMove", (300, 150))
+    touch("touchEnd")
+    assert page.evaluate(f"{V}.camera.state")[0] < near[0] - 0.1
+
+
+@pytest.mark.parametrize(("wish", "plays"), [("reduce", False), ("no-preference", True)])
+def test_it_plays_by_itself_unless_less_motion_is_asked_for(
+    browser: Any, address: str, wish: str, plays: bool
+) -> None:
+    page = browser.new_page(reduced_motion=wish)
+    page.goto(address.replace("&time=0.5", ""))
+    assert page.evaluate(f"{V}.playback.playing") == plays
+    page.close()
+
+
 def test_a_double_click_picks_a_joint(opened: Open, address: str) -> None:
     page = opened(address)
     box = page.locator("canvas").bounding_box()

@@ -108,7 +108,11 @@ export class Actor extends Group {
 
   /** The point of the floor below the figure: x and z. */
   get ground(): readonly [number, number] {
-    return groundAt((this.#way ??= wayOf(this.source)), this.seconds);
+    return this.groundAt(this.seconds);
+  }
+
+  groundAt(seconds: number): readonly [number, number] {
+    return groundAt((this.#way ??= wayOf(this.source)), seconds);
   }
 
   /** Show some trails, and the prints of the feet, or not. */

@@ -11,7 +11,9 @@ import { PALETTE, solidsOf, STICK_PALETTE, type Cone, type Ellipsoid, type Solid
 const GHOST = { colour: "#8b929a", opacity: 0.28 };
 const MARKED = new Color().setRGB(0.86, 0.12, 0.1, SRGBColorSpace);
 const TINT = 0.72; // how much of a marked part is red
-const ROUND = { high: { around: 20, arc: 6 }, low: { around: 12, arc: 4 } };
+const ROUND = { high: { around: 24, arc: 6 }, low: { around: 14, arc: 4 } };
+const DARKER = 5; // the first colour of joints and toes
+const PROUD = 1.025; // how much larger these are drawn, where they would coincide with what they continue
 
 export interface FigureOptions {
   quality?: "high" | "low";
@@ -220,7 +222,8 @@ class Shapes {
   }
 
   /** Two caps that meet their tangent cone; each hangs on its own end, so that the bone may change its length. */
-  #cone({ start, end, radii: [ra, rb] }: Cone, frame: number, around: number, arc: number): void {
+  #cone({ start, end, radii, colour }: Cone, frame: number, around: number, arc: number): void {
+    const [ra, rb] = radii.map((radius) => (colour >= DARKER ? PROUD * radius : radius));
     const long = distance(start, end);
     const ball = long <= Math.abs(ra - rb) + 1e-9;
     const lean = ball ? 0 : Math.asin((ra - rb) / long);

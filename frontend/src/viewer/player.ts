@@ -33,6 +33,7 @@ const VIEWS: readonly (readonly [View, string, string])[] = [
   ["front", "1", "Front"], ["side", "3", "Side"], ["top", "7", "Top"], ["perspective", "5", "Perspective"],
 ];
 const TURN = Math.PI / 24;
+const APART = 0.7; // metres between the figures from which both are kept in place, to be seen together
 
 /** Build a player into `host`, which gives it its size. */
 export class Player {
@@ -55,7 +56,10 @@ export class Player {
     this.viewer = new Viewer(view, { playback: this.playback, quality, theme, neutral });
     this.viewer.setOriginal(options.original);
     this.viewer.setEdited(options.edited);
-    if (options.original && options.edited) this.viewer.mode = "overlay";
+    if (options.original && options.edited) {
+      this.viewer.mode = "overlay";
+      this.viewer.treadmill = this.viewer.drift > APART;
+    }
     this.viewer.canvas.role = "img";
     this.viewer.canvas.ariaLabel = nameOf(options);
     this.#switches = this.#listSwitches();

@@ -25,7 +25,7 @@ export class Stage {
   constructor(theme: Theme, shadows: boolean) {
     this.#sun.castShadow = shadows;
     this.#sun.shadow.mapSize.set(2048, 2048);
-    this.#sun.shadow.radius = 5;
+    this.#sun.shadow.radius = 2.5;
     this.#sun.shadow.bias = -0.0004;
     this.#sun.shadow.normalBias = 0.02;
     const seen = this.#sun.shadow.camera;

@@ -158,6 +158,18 @@ export class Viewer {
     this.invalidate();
   }
 
+  /** How far on the floor the two figures get from each other, in metres. */
+  get drift(): number {
+    const [original, edited] = [this.#original, this.#edited];
+    if (!original || !edited) return 0;
+    const { duration } = this.playback;
+    const away = Array.from({ length: 25 }, (_, i) => {
+      const [[ax, az], [bx, bz]] = [original, edited].map((actor) => actor.groundAt(this.#at(actor, (i / 24) * duration)));
+      return Math.hypot(ax - bx, az - bz);
+    });
+    return Math.max(...away);
+  }
+
   /** Let the camera go with the figure. */
   get follow(): boolean {
     return this.#follow;
@@ -439,7 +451,12 @@ export class Viewer {
   }
 
   #secondsOf(actor: Actor): number {
-    const { time, duration } = this.playback;
+    return this.#at(actor, this.playback.time);
+  }
+
+  /** Seconds of a figure's own motion at a time of the playback. */
+  #at(actor: Actor, time: number): number {
+    const { duration } = this.playback;
     return this.#timing === "phase" && duration > 0 ? (time / duration) * actor.source.duration : time;
   }
 
