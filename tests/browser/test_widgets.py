@@ -6,7 +6,6 @@ says to its owner stands on that page as JSON.
 
 import functools
 import json
-import os
 import shutil
 import subprocess
 import threading
@@ -17,11 +16,7 @@ from typing import Any
 
 import pytest
 
-sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-
 FRONTEND = Path(__file__).resolve().parents[2] / "frontend"
-CHROMIUM = os.environ.get("MIEN_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
-FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'"
 Page = Any
 
@@ -59,18 +54,7 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     server.server_close()
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """One Chromium for all tests."""
-    if not CHROMIUM:
-        pytest.skip("no Chromium: install one, or name it in MIEN_CHROMIUM")
-    with sync_api.sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield found
-        found.close()
-
-
-def opened(browser: Any, address: str, **options: Any) -> tuple[Page, list[str]]:
+def on_page(browser: Any, address: str, **options: Any) -> tuple[Page, list[str]]:
     """Open the page; the list gathers everything that goes wrong on it."""
     page = browser.new_page(viewport={"width": 1280, "height": 1000}, **options)
     wrong: list[str] = []
@@ -85,7 +69,7 @@ def opened(browser: Any, address: str, **options: Any) -> tuple[Page, list[str]]
 @pytest.fixture
 def page(browser: Any, address: str) -> Iterator[Page]:
     """Give a fresh page, on which nothing may go wrong, the policy's violations included."""
-    page, wrong = opened(browser, address)
+    page, wrong = on_page(browser, address)
     yield page
     page.close()
     assert wrong == []
@@ -176,8 +160,17 @@ class TestSlider:
         assert page.get_by_role("alert").inner_text() == "From −60 to 60 degrees."
         assert said(page) == ["head", -7.5, True], "a value out of range was taken"
         field.press("Escape")
-        assert field.input_value() == "-7.50"
+        assert field.input_value() == "-7.5"
         assert page.get_by_role("alert").count() == 0
+
+    def test_touch(self, browser: Any, address: str) -> None:
+        page, wrong = on_page(browser, address, has_touch=True)
+        box = page.get_by_role("slider", name="head", exact=True).bounding_box()
+        page.touchscreen.tap(box["x"] + box["width"] / 4, box["y"] + box["height"] / 2)
+        name, value, done = said(page)
+        page.close()
+        assert (name, done, wrong) == ("head", True, [])
+        assert value == pytest.approx(-31, abs=3)
 
     def test_disabled(self, page: Page) -> None:
         slider = page.get_by_role("slider", name="trunk")
@@ -317,7 +310,7 @@ class TestDisc:
         assert valence.get_attribute("aria-valuetext") == "nothing asked for"
 
     def test_touch(self, browser: Any, address: str) -> None:
-        page, wrong = opened(browser, address, has_touch=True)
+        page, wrong = on_page(browser, address, has_touch=True)
         x, y = middle(page.locator(".rim"))
         page.touchscreen.tap(x + 20, y)
         name, valence, arousal, done = said(page)
@@ -516,7 +509,7 @@ class TestTimeline:
 
 def test_five_minutes_are_drawn_by_pixels(browser: Any, address: str) -> None:
     """36,000 frames: what is drawn depends on how wide the page is, not on how long the clip is."""
-    page, wrong = opened(browser, f"{address}?frames=36000")
+    page, wrong = on_page(browser, f"{address}?frames=36000")
     paths = page.locator(".timeline path")
     drawn = paths.evaluate_all("paths => paths.map(path => path.getAttribute('d').length)")
     assert max(drawn) < 80_000
@@ -533,7 +526,7 @@ def test_axe(browser: Any, address: str, theme: str) -> None:
     axe = FRONTEND / "node_modules" / "axe-core" / "axe.min.js"
     if not axe.exists():
         pytest.skip("axe-core is not installed: run `npm ci` in frontend")
-    page, wrong = opened(browser, f"{address}?theme={theme}")
+    page, wrong = on_page(browser, f"{address}?theme={theme}")
     page.get_by_text("Words", exact=True).click()
     page.get_by_role("button", name="posture").click()
     page.get_by_role("slider", name="Key 2 of 3").focus()

@@ -13,7 +13,8 @@ export function decimals(step: number): number {
 export function format(value: number, step: number): string {
   const digits = decimals(step);
   const plain = value.toFixed(digits);
-  const text = Math.abs(Number(plain) - value) < 1e-9 + step * 1e-3 ? plain : value.toFixed(digits + 2);
+  const exact = value.toFixed(digits + 2).replace(/\.?0+$/, "");
+  const text = Math.abs(Number(plain) - Number(exact)) < 1e-9 ? plain : exact;
   return Number(text) === 0 ? (0).toFixed(digits) : text;
 }
 

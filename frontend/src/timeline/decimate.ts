@@ -1,4 +1,4 @@
-// Curves of many frames on few pixels: a line where frames are few, else the lowest and highest of each column.
+// Curves of many frames on few pixels: a line where frames are few, else lowest and highest of each column.
 import type { View } from "./view";
 
 const DENSE = 2; // frames a pixel from which a line would only be a blot
