@@ -1,23 +1,21 @@
-// Pictures of presets: asked for once each, and a few at a time.
+// Pictures of presets: asked for once each, one after the other, so that edits come between.
 import type { Api } from "./api";
 
-const AT_ONCE = 2; // the server draws them one after the other anyway, and edits should come between
+interface Album {
+  pictures: Map<string, Promise<string>>;
+  last: Promise<unknown>;
+}
 
-const addresses = new WeakMap<Api, Map<string, Promise<string>>>();
-const queues = new WeakMap<Api, Promise<unknown>[]>();
+const albums = new WeakMap<Api, Album>();
 
-/** The address of a preset's picture. */
+/** The address of a preset's picture; one that could not be had is asked for again next time. */
 export function pictures(api: Api, name: string): Promise<string> {
-  const known = addresses.get(api) ?? new Map<string, Promise<string>>();
-  addresses.set(api, known);
-  const there = known.get(name);
+  const album = albums.get(api) ?? { pictures: new Map(), last: Promise.resolve() };
+  albums.set(api, album);
+  const there = album.pictures.get(name);
   if (there) return there;
-  const queue = queues.get(api) ?? Array.from({ length: AT_ONCE }, () => Promise.resolve());
-  queues.set(api, queue);
-  const lane = known.size % AT_ONCE;
-  const asked = queue[lane]!.catch(() => undefined).then(() => api.presetPicture(name));
-  queue[lane] = asked;
-  known.set(name, asked);
-  asked.catch(() => known.delete(name));
+  const asked = album.last.then(() => api.presetPicture(name));
+  album.pictures.set(name, asked);
+  album.last = asked.catch(() => album.pictures.delete(name));
   return asked;
 }

@@ -190,6 +190,11 @@ export function moodName(name: string): string {
   return name.includes("/") ? `${plain} (as in the thesis)` : plain;
 }
 
+/** A docstring's line without the marks around its names. */
+export function plain(doc: string): string {
+  return doc.replaceAll("``", "");
+}
+
 /** "path_length" as "Path length". */
 export function sentence(name: string): string {
   const words = name.replaceAll("_", " ");
