@@ -158,6 +158,22 @@ def test_the_mouse_turns_slides_and_comes_nearer(opened: Open, address: str) -> 
     assert near == pytest.approx([x, y], abs=25)  # what is under the cursor stays there
 
 
+def test_the_wipe_is_drawn_along_by_mouse_and_keys(opened: Open, address: str) -> None:
+    page = opened(address)
+    page.evaluate(f"{V}.mode = 'wipe'")
+    handle = page.get_by_role("slider", name="Share of the original")
+    box = handle.bounding_box()
+    page.mouse.move(box["x"] + 9, 200)
+    page.mouse.down()
+    page.mouse.move(0.25 * 640, 200)
+    page.mouse.up()
+    assert page.evaluate(f"{V}.wipe") == pytest.approx(0.25, abs=0.01)
+    handle.focus()
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate(f"{V}.wipe") == pytest.approx(0.27, abs=0.01)
+    assert page.evaluate(f"{V}.playback.frame") == 15  # the arrow did not step the motion as well
+
+
 def test_two_fingers_come_nearer_and_one_turns(opened: Open, address: str) -> None:
     page = opened(address, has_touch=True)
     before = page.evaluate(f"{V}.camera.state")

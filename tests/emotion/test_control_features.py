@@ -6,8 +6,7 @@ import pytest
 from mien import samples
 from mien.analysis.laban import PACE, features, pace
 from mien.analysis.laban_table import SELECTED
-from mien.emotion.control_features import AFFECTED, POSE, Poses, faces, measured
-from mien.emotion.wishes import FLOOR
+from mien.emotion.control_features import AFFECTED, FLOOR, POSE, Poses, faces, measured
 from mien.kinematics.body import Body
 from mien.kinematics.control_points import NAMES, moved
 from mien.kinematics.landmarks import INDEX, landmarks

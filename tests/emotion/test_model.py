@@ -64,7 +64,7 @@ def test_the_shipped_model_by_its_name() -> None:
     assert "CC BY-NC" in model.card["licence"]
     assert model.card["scores on contents left out"]["change top-1"] > 0.6
     assert set(model.places) <= set(model.change.planes.names) == set(model.alone.planes.names)
-    assert set(model.changes) == set(model.places)
+    assert set(model.clusters.changes) == set(model.places)
 
 
 def test_labels_pull_the_way_they_are_told_apart() -> None:
@@ -128,7 +128,9 @@ HOSTILE = {
     "feature out of range": (("laban", "selected", 0), 121),
     "feature from the end": (("laban", "selected", 0), -1),
     "components that do not fit": (("laban", "components"), [[1.0]]),
-    "changes too short": (("changes", "sad"), [1.0]),
+    "changes too short": (("clusters", "changes", "sad"), [1.0]),
+    "no clusters": (("clusters", "heights"), []),
+    "negative weights": (("clusters", "weights", 0, 0), -1.0),
     "card of words": (("card",), "good"),
 }
 

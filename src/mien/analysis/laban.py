@@ -168,11 +168,17 @@ def pace(points: Array, body: Body, frame_time: float) -> Array:
     ``points`` (T, 19, 3) are landmarks in heights of the body. They are what ``features`` finds, without the
     hulls of every frame, which take most of its time.
     """
+    return pace_windows(points, body, frame_time).mean(axis=0)
+
+
+def pace_windows(points: Array, body: Body, frame_time: float, *, stride: float = STRIDE) -> Array:
+    """Return the features of ``pace`` for each window of 1.17 s (W, 14), ``stride`` seconds apart."""
     frames = np.zeros((len(points), len(FEATURES)))
     velocity = _fill_effort(frames, points, frame_time)
-    _fill_space(frames, points, velocity, np.stack([body.left, body.forward]), frame_time)
-    clip = _derive(frames, np.zeros((len(points), 3)), frame_time, STRIDE).mean(axis=0)
-    return clip[[d.number - 1 for d in SELECTED if d.selected in PACE]]
+    ground = np.stack([body.left, body.forward])
+    _fill_space(frames, points, velocity, ground, frame_time, stride=stride)
+    windows = _derive(frames, np.zeros((len(points), 3)), frame_time, stride)
+    return windows[:, [d.number - 1 for d in SELECTED if d.selected in PACE]]
 
 
 def _distances(points: Array) -> Array:
@@ -223,11 +229,19 @@ def _zones(height: Array) -> Array:
     return np.stack([zone.mean(axis=1) for zone in (above, ~above & ~below, below)], axis=1)
 
 
-def _fill_space(frames: Array, points: Array, velocity: Array, ground: Array, frame_time: float) -> None:
+def _fill_space(
+    frames: Array,
+    points: Array,
+    velocity: Array,
+    ground: Array,
+    frame_time: float,
+    *,
+    stride: float = STRIDE,
+) -> None:
     """Fill in f35 and f36; ``ground`` (2, 3) are the axes of the floor."""
     frames[:, 34] = _mean_around(_length(velocity @ ground.T), frame_time) * WINDOW
     (smooth,) = derivatives(points[:, INDEX["pelvis"]], frame_time, orders=(0,))
-    step, length, starts, middle = _hull_windows(len(points), frame_time)
+    step, length, starts, middle = _hull_windows(len(points), frame_time, stride=stride)
     path = (smooth @ ground.T)[::step]
     areas = [hull_size(path[s : s + length]) / (length * step * frame_time) for s in starts]
     frames[:, 35] = np.interp(np.arange(len(points)), middle, areas)
@@ -241,15 +255,17 @@ def _total_volume(points: Array, frame_time: float) -> Array:
     return np.interp(np.arange(len(points)), middle, volumes)
 
 
-def _hull_windows(frames: int, frame_time: float) -> tuple[int, int, Integers, Array]:
+def _hull_windows(
+    frames: int, frame_time: float, *, stride: float = STRIDE
+) -> tuple[int, int, Integers, Array]:
     """Return every so many frames, how many of these make a window, where windows start, and their middles.
 
-    Hulls of a window are of some 30 frames a second, ``STRIDE`` apart, and run in straight lines between.
+    Hulls of a window are of some 30 frames a second, ``stride`` apart, and run in straight lines between.
     """
     step = max(1, round(1.0 / (RATE * frame_time)))
     thin = len(range(0, frames, step))
     length = window_frames(thin, step * frame_time)
-    starts = window_starts(thin, length, step * frame_time)
+    starts = window_starts(thin, length, step * frame_time, stride=stride)
     return step, length, starts, (starts + 0.5 * (length - 1)) * step
 
 

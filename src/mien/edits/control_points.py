@@ -16,6 +16,7 @@ from ..kinematics.contacts import detect
 from ..kinematics.control_points import moved
 from ..kinematics.control_rules import BOUNDS
 from ..motion import Motion
+from ..typing import Array
 from .registry import Param, edit
 
 
@@ -32,7 +33,7 @@ def _hand(side: str, place: str) -> Param:
     equation="h' = c h (c <= 1), h + (h_T - h)(1 - 1/c); d' = d_T - (d_T - d) / c; "
     "p' = p + 1/4 sum_r (p - r)(c_r - 1)",
     deviations="vectors of the printed table are read the other way round; a pelvis above its calm height "
-    "rises by (h - h_T)(c - 1), continuous at 1; upright (d_T) is 6 degrees behind the vertical, as bent "
+    "rises by (h - h_T)(c - 1), continuous at 1; upright (d_T) is 10 degrees behind the vertical, as bent "
     "further is to be forwards. Rules and inverse kinematics are done in every frame, not in every fifth; "
     "hands go with the trunk before their own rule",
 )
@@ -40,28 +41,29 @@ def control_points(
     motion: Motion,
     *,
     pelvis: Annotated[
-        float,
+        float | Array,
         Param(
             "height of the pelvis, times; above 1 up to that of the stance", *BOUNDS["pelvis"], neutral=1.0
         ),
     ] = 1.0,
     torso: Annotated[
-        float,
+        float | Array,
         Param("torso nearer to upright (above 1) or leaning further (below)", *BOUNDS["torso"], neutral=1.0),
     ] = 1.0,
-    left_head: Annotated[float, _hand("left", "head")] = 1.0,
-    left_chest: Annotated[float, _hand("left", "chest")] = 1.0,
-    left_pelvis: Annotated[float, _hand("left", "pelvis")] = 1.0,
-    left_ground: Annotated[float, _hand("left", "ground")] = 1.0,
-    right_head: Annotated[float, _hand("right", "head")] = 1.0,
-    right_chest: Annotated[float, _hand("right", "chest")] = 1.0,
-    right_pelvis: Annotated[float, _hand("right", "pelvis")] = 1.0,
-    right_ground: Annotated[float, _hand("right", "ground")] = 1.0,
+    left_head: Annotated[float | Array, _hand("left", "head")] = 1.0,
+    left_chest: Annotated[float | Array, _hand("left", "chest")] = 1.0,
+    left_pelvis: Annotated[float | Array, _hand("left", "pelvis")] = 1.0,
+    left_ground: Annotated[float | Array, _hand("left", "ground")] = 1.0,
+    right_head: Annotated[float | Array, _hand("right", "head")] = 1.0,
+    right_chest: Annotated[float | Array, _hand("right", "chest")] = 1.0,
+    right_pelvis: Annotated[float | Array, _hand("right", "pelvis")] = 1.0,
+    right_ground: Annotated[float | Array, _hand("right", "ground")] = 1.0,
 ) -> Motion:
     """Move pelvis, torso and hands, and let the body follow with the feet where they are.
 
-    Bones keep their lengths: a hand out of reach is approached softly, and the pelvis comes no higher than
-    planted legs reach. Raises ``BodyError`` where no body is found.
+    A number may be one for each frame (T,). Bones keep their lengths: a hand out of reach is approached
+    softly, and the pelvis comes no higher than planted legs reach. Raises ``BodyError`` where no body is
+    found.
 
     >>> from mien.samples import walk
     >>> control_points(walk(seconds=1.0).motion, pelvis=0.95, left_ground=0.8, right_ground=0.8)
@@ -69,7 +71,7 @@ def control_points(
     """
     left = (left_head, left_chest, left_pelvis, left_ground)
     right = (right_head, right_chest, right_pelvis, right_ground)
-    values = np.array([pelvis, torso, *left, *right])
+    values = np.stack(np.broadcast_arrays(pelvis, torso, *left, *right), axis=-1)
     if (values == 1.0).all():
         return motion
     body = Body.of(motion)

@@ -73,6 +73,8 @@ class Edit:
             )
         if not changing:
             return self._perform(motion, self.scaled(values, strength), original, joints)
+        if self._by_itself:
+            return self._perform(motion, self._by_frame(motion, values, strength, None), original, joints)
 
         def render(now: Mapping[str, float]) -> Motion:
             level = now.get(keyed.STRENGTH, strength)
@@ -150,6 +152,11 @@ class Edit:
             if p.varies and p.about.neutral is not None:
                 out[name] = _moved(p, evaluate(values.get(name, p.default), motion.times), share)
         return out
+
+    @property
+    def _by_itself(self) -> bool:
+        """Whether the edit takes each of its numbers frame by frame, so that nothing need be blended."""
+        return all(p.varies for p in self._numbers().values())
 
     def _numbers(self) -> dict[str, Parameter]:
         return {name: p for name, p in self.parameters.items() if p.kind is float}

@@ -13,7 +13,8 @@ from typing import Self
 import numpy as np
 
 from ..analysis.hulls import faces_volumes, hull_faces
-from ..analysis.laban import VOLUMES
+from ..analysis.laban import PACE, VOLUMES
+from ..analysis.laban_table import SELECTED
 from ..kinematics.body import SIDES, Body
 from ..kinematics.control_points import rest_height, rest_torso
 from ..kinematics.control_rules import REFERENCES, hand_position, pelvis_height, torso_vector
@@ -29,6 +30,23 @@ AFFECTED = {
     "hands": (1, 2, 3, 18, 19, 21, 22, 23, 26, 28, 29, 30, 31),
 }
 POSE = tuple(sorted({number for numbers in AFFECTED.values() for number in numbers}))
+NUMBERS = (*POSE, *PACE)  # of the thirty features that rules change: of poses, and of pace
+# Unit of a feature -> a change so small that nobody sees it: no feature is told apart more finely.
+FLOOR = {
+    "heights": 0.005,
+    "heights^2/s": 0.005,
+    "heights^3": 0.001,
+    "heights/s": 0.05,
+    "heights/s^2": 0.5,
+    "heights/s^3": 5.0,
+    "per window": 0.2,
+    "share": 0.05,
+}
+_PACE_FLOOR = np.array([FLOOR[SELECTED[number - 1].feature.unit] for number in PACE])
+# Which derivative each feature of pace is, so to which power of the tempo it goes.
+ORDER = np.array([{**dict.fromkeys(range(12, 17), 2), 17: 3}.get(number, 1) for number in PACE])
+KEYFRAMES = 6.0  # a second: every fifth frame of 30
+CURVED = 0.4  # per radian squared; measured 0.2 to 0.6 on three skeletons
 SOFT = 0.02  # heights: around the border between two zones
 # Pairs of places whose distance is a feature: its number.
 _PAIRS = {
@@ -38,7 +56,7 @@ _PAIRS = {
     30: ("left_hand", "chest"),
     31: ("right_hand", "chest"),
 }
-_HULLS = (18, 19, 26, 27, 28, 29)  # in the order of VOLUMES
+VOLUME = (18, 19, 26, 27, 28, 29)  # features that are volumes, in the order of VOLUMES
 _GROUPS = tuple(tuple(INDEX[name] for name in group) for group in VOLUMES)
 # How far a place goes with the pelvis: knees half, feet not.
 _LIFT = np.array(
@@ -78,13 +96,14 @@ class Poses:
         return cls(found.points / size, body.up, body.floor / size, rest_height(motion, body) / size, torso)
 
     def ruled(self, coefficients: Array) -> Array:
-        """Return the points (N, K, 19, 3) after the rules g1 to g3, for each of ``coefficients`` (N, 10).
+        """Return the points (N, K, 19, 3) after the rules g1 to g3.
 
-        They are in the order of ``kinematics.control_points.NAMES``. No body is asked whether it can do that.
-        Elbows bend as arms do.
+        ``coefficients`` (N, 10), or (N, K, 10) for each pose, are in the order of
+        ``kinematics.control_points.NAMES``. No body is asked whether it can do that. Elbows bend as arms do.
         """
         many, keys = len(coefficients), len(self.points)
-        c = np.repeat(coefficients, keys, axis=0)
+        each = coefficients if coefficients.ndim == 3 else np.repeat(coefficients[:, None], keys, axis=1)
+        c = each.reshape(many * keys, -1)
         points = self._with_pelvis(np.tile(self.points, (many, 1, 1)), c[:, 0])
         points = self._with_torso(points, np.tile(self.rest_torso, (many, 1)), c[:, 1])
         return self._with_hands(points, c[:, 2:]).reshape(many, keys, -1, 3)
@@ -97,13 +116,16 @@ class Poses:
     def _with_torso(self, points: Array, rest: Array, c: Array) -> Array:
         """Move the trunk by how far up it each place is, arms with their shoulder.
 
-        The torso keeps its length, as bones do: of what g2 wants the direction counts.
+        Of what g2 wants the direction counts: bones keep their length, and a spine that bends by an angle d
+        gets shorter from end to end, by about ``CURVED d^2`` of its length.
         """
         pelvis, head = points[:, INDEX["pelvis"]], points[:, INDEX["head"]]
         torso = head - pelvis
         aim = torso_vector(torso, rest, c)
         length, wanted = (np.sqrt(np.einsum("ti,ti->t", v, v))[:, None] for v in (torso, aim))
-        change = aim * (length / np.maximum(wanted, 1e-9)) - torso
+        cosine = np.einsum("ti,ti->t", torso, aim)[:, None] / np.maximum(length * wanted, 1e-12)
+        bend = np.arccos(np.clip(cosine, -1.0, 1.0))
+        change = aim * ((1.0 - CURVED * bend**2) * length / np.maximum(wanted, 1e-9)) - torso
         along = np.einsum("tni,ti->tn", points - pelvis[:, None], torso)
         share = np.clip(along / np.maximum(length, 1e-9) ** 2, 0.0, 1.0)
         return points + (share[:, _LEVEL] * _FOLLOWS)[..., None] * change[:, None]
@@ -145,10 +167,13 @@ def faces(points: Array) -> list[Integers]:
     return hull_faces(points, _GROUPS)
 
 
-def measured(points: Array, up: Array, *, found: Sequence[Integers] | None = None) -> Array:
+def measured(
+    points: Array, up: Array, *, found: Sequence[Integers] | None = None, volumes: bool = True
+) -> Array:
     """Return the features (K, 16) numbered ``POSE`` of points (K, 19, 3), each in its own unit of heights.
 
-    ``found`` are the faces of nearby points: quicker than to look for them. The height of the floor is taken
+    ``found`` are the faces of nearby points: quicker than to look for them; without ``volumes`` those are 0.
+    The height of the floor is taken
     as 0 along ``up`` (3,): it matters to differences only as it stays.
 
     >>> still = np.random.default_rng(0).normal(size=(2, 19, 3))
@@ -168,10 +193,28 @@ def measured(points: Array, up: Array, *, found: Sequence[Integers] | None = Non
     below = (1.0 - above) * _step(chest[:, None] - hands)
     for number, zone in zip((21, 22, 23), (above, 1.0 - above - below, below), strict=True):
         out[:, POSE.index(number)] = zone.mean(axis=1)
-    out[:, [POSE.index(number) for number in _HULLS]] = faces_volumes(points, found or faces(points))
+    hulls = [POSE.index(number) for number in VOLUME]
+    out[:, hulls] = faces_volumes(points, found or faces(points)) if volumes else 0.0
     return out
 
 
 def _step(distance: Array) -> Array:
     """Return 0 far below 0, 1 far above it, smoothly."""
     return 0.5 * (1.0 + np.tanh(distance / (2.0 * SOFT)))
+
+
+def keyframes(frames: int, frame_time: float) -> Integers:
+    """Return every fifth frame of 30 a second, or as many a second.
+
+    >>> keyframes(16, 1 / 30).tolist()
+    [0, 5, 10, 15]
+    """
+    return np.arange(0, frames, max(1, round(1.0 / (KEYFRAMES * frame_time))))
+
+
+def toned(pace: Array) -> Array:
+    """Return features of pace (..., 14) so that a tempo adds to them: ``log(v + floor)``.
+
+    How much faster somebody is compares between a walk and a wave, how many metres a second do not.
+    """
+    return np.asarray(np.log(np.maximum(pace, 0.0) + _PACE_FLOOR))

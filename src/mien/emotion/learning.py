@@ -22,6 +22,7 @@ from ..signal.discriminant import Discriminant, discriminate
 from ..signal.radial import near
 from ..typing import Array, Integers
 from .circumplex import Point, quadrant
+from .cluster_tables import Seen, learn_tables
 from .model import NEUTRAL, EmotionModel, Laban, Manners
 from .selection import select
 
@@ -42,7 +43,7 @@ class Take:
     """One labelled clip in numbers.
 
     ``change`` (F,) of manner against its neutral take, all 0 for that itself; ``manner`` by itself;
-    ``derived`` (121,) Laban features, and those of the ``neutral`` take.
+    ``derived`` (121,) Laban features; what is ``seen`` of it frame by frame, and of its neutral take.
     """
 
     label: str
@@ -51,7 +52,8 @@ class Take:
     change: Array
     manner: Manner
     derived: Array
-    neutral: Array
+    seen: Seen
+    seen_neutral: Seen
 
 
 def measure_takes(clips: Iterable[tuple[Motion, str, str, str]]) -> list[Take]:
@@ -70,12 +72,13 @@ def measure_takes(clips: Iterable[tuple[Motion, str, str, str]]) -> list[Take]:
         if rest is None:
             continue
         body = Body.of(rest)
-        manner, laban = Manner.of(rest, body=body), features(rest, body=body).clip
+        manner, still = Manner.of(rest, body=body), Seen.of(rest, body=body)
         for motion, label in some:
             own = body_beside(body, rest, motion)
             change = manner_features(difference(manner, Manner.of(motion, body=own)))
             derived = features(motion, body=own).clip
-            takes.append(Take(label, content, performer, change, Manner.of(motion), derived, laban))
+            seen = still if motion is rest else Seen.of(motion, body=own)
+            takes.append(Take(label, content, performer, change, Manner.of(motion), derived, seen, still))
     if len({take.label for take in takes} - {NEUTRAL}) < 2:
         raise MienError(
             "to learn takes two or more labels besides the neutral one, with a neutral take of the same "
@@ -103,7 +106,7 @@ def learn(takes: Sequence[Take], places: Mapping[str, Point], *, card: Mapping[s
         rest=rest,
         alone=_manners(alone, takes, centred=True),
         laban=_learn_laban(takes, known),
-        changes=_changes(takes, known),
+        clusters=learn_tables(takes, tuple(known), neutral=NEUTRAL),
     )
 
 
@@ -214,11 +217,3 @@ def _selected(takes: Sequence[Take], low: Array, high: Array) -> Integers:
         if len(found) >= LEAST:
             return found
     return np.array(PRINTED)
-
-
-def _changes(takes: Sequence[Take], places: Mapping[str, Point]) -> dict[str, Array]:
-    """Return label -> mean change of the derived features (121,)."""
-    return {
-        label: np.mean([take.derived - take.neutral for take in takes if take.label == label], axis=0)
-        for label in places
-    }

@@ -24,8 +24,9 @@ from ..signal.discriminant import Discriminant
 from ..signal.radial import Radial
 from ..typing import Array
 from .circumplex import Point, clamp
+from .cluster_tables import ClusterTables
 
-VERSION = 1
+VERSION = 2
 SHIPPED = "bandai"
 NEUTRAL = "neutral"
 CLIP = (-0.25, 1.25)  # how far new clips may go beyond the [0, 1] of the training clips
@@ -91,8 +92,8 @@ class EmotionModel:
     """What is learned: ``card`` (source, licence, scores), the three readings, and how features change.
 
     ``places`` label -> its point, of labels that stand on the circumplex. ``change`` reads changes of manner
-    from a neutral clip, ``alone`` those from ``rest``, the usual manner. ``changes`` label -> mean change
-    (121,) of the derived Laban features, in their own units.
+    from a neutral clip, ``alone`` those from ``rest``, the usual manner. ``clusters`` is what labels change
+    in each cluster of poses, for the way back from a place to a motion.
     """
 
     card: Mapping[str, Any]
@@ -101,7 +102,7 @@ class EmotionModel:
     rest: Manner
     alone: Manners
     laban: Laban
-    changes: Mapping[str, Array]
+    clusters: ClusterTables
 
     def place(self, probabilities: Mapping[str, float]) -> Point:
         """Return the mean place of the labels that have one, by their probabilities."""
@@ -158,7 +159,7 @@ def format_model(model: EmotionModel) -> str:
                 **{key: _plain(getattr(laban.surface, key)) for key in SURFACE},
             },
         },
-        "changes": {label: _plain(change) for label, change in model.changes.items()},
+        "clusters": model.clusters.as_data(),
     }
     return json.dumps(data, ensure_ascii=False, separators=(",", ":")) + "\n"
 
@@ -195,7 +196,7 @@ def _parsed(data: dict[str, Any]) -> EmotionModel:
         rest=_read_rest(data["rest"]),
         alone=_read_manners(data["alone"]),
         laban=_read_laban(data["laban"]),
-        changes={label: _array(change, len(DERIVED)) for label, change in data["changes"].items()},
+        clusters=ClusterTables.from_data(data["clusters"]),
     )
 
 

@@ -1,185 +1,169 @@
 """Fit the coefficients of the four rules to a wish, one rule after the other.
 
 A. Aristidou et al., *Emotion control of unstructured dance movements*, SCA 2017, equation 6:
-``min_c sum_t |f*_t - f_t(c)|^2`` for each rule, from 1 on, on the points that the rules move.
+``min_c sum_t |f*_t - f_t(c)|^2`` for each rule, from 1 on, on the points that the rules move, by the
+interior-reflective Newton method (Coleman & Li 1996), in each cluster of poses for itself.
 
-Differences: features are counted in units of what emotions usually change; a feature that several rules
-affect is shared among them; a small penalty on ``log c`` keeps at 1 what does nothing; the keyframes of long
-clips are thinned out; faces of hulls are found at the start and for the hands, not for each trial.
+Differences: features are weighed by how surely emotions change them; volumes, which three rules affect, are
+wished of the hands alone, as whoever leans less to be smaller is not sad; a small penalty on ``log c`` keeps
+at 1 what does nothing; faces of hulls are found before the search for the hands, not for each trial.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Self
 
 import numpy as np
 
-from ..analysis.laban import PACE, pace
-from ..kinematics.body import Body
 from ..kinematics.control_points import NAMES
-from ..kinematics.control_rules import BOUNDS, paced
-from ..kinematics.landmarks import landmarks
-from ..kinematics.lead_in import lead_in
-from ..motion import Motion
+from ..kinematics.control_rules import BOUNDS
 from ..typing import Array, Integers
-from .control_features import AFFECTED, POSE, Poses, faces, measured
+from .control_features import AFFECTED, POSE, VOLUME, faces
+from .rule_wish import Wish
 
-KEYFRAMES = 6.0  # a second: every fifth frame of 30
-MOST = 24  # keyframes, evenly spread over longer clips
-PENALTY = 1.4  # of log c, over half its range, in usual changes of one feature
+PENALTY = 0.5  # of log c, over half its range, in spreads of one feature
 STEP = 1e-4  # of a coefficient, for its slope
+LOOKED_AT = 9  # values of a single coefficient over its range, before the search
 NUDGE = 0.02  # of the range that a search starts from its ends
-ROUGH, TRIALS = 1e-3, 12  # a search ends where it gains less, or after so many
-_ORDER = np.array([{**dict.fromkeys(range(12, 17), 2), 17: 3}.get(number, 1) for number in PACE])
+ROUGH, TRIALS = 3e-3, 8  # a search ends where it gains less, or after so many
 # The rules about poses in their order, and where their coefficients are.
 PLACES = {"pelvis": [0], "torso": [1], "hands": list(range(2, len(NAMES)))}
-LOW, HIGH = (np.array([BOUNDS[n if n in BOUNDS else "hand"][i] for n in (*NAMES, "tempo")]) for i in range(2))
+# Where coefficients are looked for: not as far as the edit goes, as a hand that comes nearer to four places
+# at once is soon inside the body, and nobody walks in a squat.
+RANGES = {**BOUNDS, "pelvis": (0.88, 1.4), "torso": (0.3, 2.0), "hand": (0.8, 1.5)}
+LOW, HIGH = (np.array([RANGES[n if n in RANGES else "hand"][i] for n in NAMES]) for i in range(2))
+SLOWEST, FASTEST = BOUNDS["tempo"]
 
 
 @dataclass(frozen=True, eq=False)
-class Wish:
-    """What is fitted: the motion's keyframes, and the wanted change in units of what is usual.
+class Found:
+    """Coefficients: ``pose`` (B, 10) of each cluster as ``NAMES``, and the ``tempo`` of the clip."""
 
-    ``frames`` of the motion that are looked at, its ``poses`` there, the faces of their hulls (``near``), its
-    ``pace`` (14,) features, ``change`` (31,) and ``scale`` (31,) of the selected features.
-    """
+    pose: Array
+    tempo: float
 
-    motion: Motion
-    body: Body
-    frames: Integers
-    poses: Poses
-    near: Sequence[Integers]
-    pace: Array
-    change: Array
-    scale: Array
+    @property
+    def vector(self) -> Array:
+        """All numbers (10 B + 1,)."""
+        return np.append(self.pose.ravel(), self.tempo)
 
     @classmethod
-    def of(cls, motion: Motion, change: Array, scale: Array) -> Self:
-        """Return the wish for a motion. Raises ``BodyError`` where no body is found."""
-        body = Body.of(motion)
-        start = lead_in(motion)
-        frames = _keyframes(len(motion) - start, motion.frame_time) + start
-        points = landmarks(motion[start:], body).points / body.height
-        poses = Poses.of(_at(motion, frames), body)
-        near = faces(poses.points)
-        return cls(motion, body, frames, poses, near, pace(points, body, motion.frame_time), change, scale)
-
-    def wanted_poses(self) -> Array:
-        """Return the features (K, 16) of poses that are wanted, f*: as they are, and the change."""
-        return (
-            measured(self.poses.points, self.poses.up, found=self.near) + self.change[[n - 1 for n in POSE]]
-        )
-
-    def misses(self, points: Array, aim: Array, *, near: Sequence[Integers] | None = None) -> Array:
-        """Return how far (N, 16 K) the features of points (N, K, 19, 3) are from ``aim`` (K, 16).
-
-        Each in usual changes, so that the squares of a trial add up to the mean over keyframes. ``near`` are
-        faces of hulls that are near enough.
-        """
-        many, keys = points.shape[:2]
-        found = None if near is None else [np.tile(part, (many, 1, 1)) for part in near]
-        values = measured(points.reshape(many * keys, -1, 3), self.poses.up, found=found)
-        scale = self.scale[[n - 1 for n in POSE]] * np.sqrt(keys)
-        return ((values.reshape(many, keys, -1) - aim) / scale).reshape(many, -1)
-
-    def pace_misses(self, c: Array) -> Array:
-        """Return how far the features of pace (N, 14) are from wanted at tempo ``c`` (N, 1), by g4."""
-        rows = [number - 1 for number in PACE]
-        ruled = paced(self.pace, c, order=_ORDER)
-        return np.asarray((ruled - self.pace - self.change[rows]) / self.scale[rows])
+    def of(cls, vector: Array) -> "Found":
+        """Return the coefficients from all numbers."""
+        return cls(vector[:-1].reshape(-1, len(NAMES)), float(vector[-1]))
 
 
-def sequential(wish: Wish) -> Array:
-    """Return the coefficients (11,), as ``NAMES`` and the tempo, found rule by rule: g1, g2, g3, g4.
+def sequential(wish: Wish) -> Found:
+    """Return the coefficients found rule by rule: g1, g2, g3, g4.
 
-    A feature that several rules affect is wished from each in equal shares of what is left.
+    Volumes are wished of the hands alone, which change them most.
     """
-    c = np.ones(len(NAMES) + 1)
-    aim, near = wish.wanted_poses(), wish.near
-    for number, (rule, some) in enumerate(PLACES.items()):
-        if rule == "hands":
-            near = faces(wish.poses.ruled(c[None, :-1])[0])
-        later = [AFFECTED[name] for name in list(PLACES)[number:]]
-        share = np.array([1.0 / max(sum(f in affected for affected in later), 1) for f in POSE])
-        columns = [POSE.index(f) for f in AFFECTED[rule]]
-        c[some] = _fitted(wish, c, some, columns, aim=aim, share=share, near=near)
-    c[-1:] = fit(wish.pace_misses, c[-1:], LOW[-1:], HIGH[-1:])
-    return c
+    c = np.ones((wish.clusters, len(NAMES)))
+    for rule, some in PLACES.items():
+        near = faces(wish.ruled(c[None])[0]) if rule == "hands" else None
+        columns = [POSE.index(f) for f in AFFECTED[rule] if near is not None or f not in VOLUME]
+        c[:, some] = _fitted(wish, c, some, columns, near=near)
+    return Found(c, fitted_tempo(wish))
 
 
 def _fitted(
-    wish: Wish,
-    c: Array,
-    some: list[int],
-    columns: list[int],
-    *,
-    aim: Array,
-    share: Array,
-    near: Sequence[Integers],
+    wish: Wish, c: Array, some: list[int], columns: list[int], *, near: Sequence[Integers] | None
 ) -> Array:
-    """Return ``some`` of the coefficients, fitted to ``share`` (16,) of what is left to ``aim`` (K, 16)."""
-    now = measured(wish.poses.ruled(c[None, :-1])[0], wish.poses.up, found=near)
-    target = now + share * (aim - now)
+    """Return ``some`` of the coefficients (B, P), fitted to the features in ``columns``."""
 
     def misses(trials: Array) -> Array:
-        whole = np.tile(c[:-1], (len(trials), 1))
-        whole[:, some] = trials
-        away = wish.misses(wish.poses.ruled(whole), target, near=near)
-        return away.reshape(len(trials), -1, len(POSE))[..., columns].reshape(len(trials), -1)
+        whole = np.tile(c, (len(trials), 1, 1))
+        whole[..., some] = trials
+        return wish.misses(wish.ruled(whole), near=near)[..., columns]
 
-    return fit(misses, c[some], LOW[some], HIGH[some])
+    return fit(misses, c[:, some], LOW[some], HIGH[some], wish.member)
+
+
+def fitted_tempo(wish: Wish) -> float:
+    """Return the tempo whose pace is nearest to what is wanted, by rule g4."""
+
+    def misses(trials: Array) -> Array:
+        return wish.pace_misses(trials[:, 0, 0])[:, None]
+
+    low, high = np.array([SLOWEST]), np.array([FASTEST])
+    return float(fit(misses, np.ones((1, 1)), low, high, np.zeros(1, np.int64))[0, 0])
 
 
 def penalty(c: Array, low: Array, high: Array) -> Array:
-    """Return what coefficients (N, P) away from 1 cost, more where their bounds are narrow."""
+    """Return what coefficients (..., P) away from 1 cost, more where their bounds are narrow."""
     return np.asarray(PENALTY * np.log(c) / (0.5 * np.log(high / low)))
 
 
-def fit(misses: Callable[[Array], Array], start: Array, low: Array, high: Array) -> Array:
-    """Return the coefficients with the least squares, by the interior-reflective Newton method of SciPy.
+def fit(
+    misses: Callable[[Array], Array],
+    start: Array,
+    low: Array,
+    high: Array,
+    member: Integers,
+    *,
+    most: int = TRIALS,
+) -> Array:
+    """Return the coefficients (B, P) with the least squares, by the interior-reflective method of SciPy.
 
-    ``misses`` (N, P) -> (N, R) of many trials at once. A single coefficient is looked for on either side of
-    its start, as rule g1 has another slope there.
+    ``misses`` (N, B, P) -> (N, K, R) of many trials at once, row k a matter of block ``member[k]`` alone, so
+    that one trial tells a slope of every block. A single coefficient is first looked for all over its range,
+    then on that side of its start: rule g1 has another slope there, and a head comes down forwards and
+    backwards.
     """
     from scipy.optimize import least_squares
 
-    def whole(trials: Array) -> Array:
-        return np.concatenate([misses(trials), penalty(trials, low, high)], axis=1)
+    blocks, count = start.shape
+    lows, highs = np.tile(low, (blocks, 1)), np.tile(high, (blocks, 1))
+    where = np.arange(len(member))
+
+    def whole(trials: Array) -> tuple[Array, Array]:
+        return misses(trials), penalty(trials, low, high)
 
     def of_one(x: Array) -> Array:
-        return whole(x[None])[0]
+        return np.concatenate([part.ravel() for part in whole(x.reshape(1, blocks, count))])
 
     def slopes(x: Array) -> Array:
-        steps = np.where(x + STEP <= high, STEP, -STEP)
-        found = whole(np.vstack([x, x + np.diag(steps)]))
-        return np.asarray((found[1:] - found[0]).T / steps)
+        here = x.reshape(blocks, count)
+        steps = np.where(here + STEP <= highs, STEP, -STEP)
+        trials = np.concatenate([here[None], here + steps.T[..., None] * np.eye(count)[:, None]])
+        away, cost = whole(trials)
+        change = (away[1:] - away[0]) / steps.T[:, member][..., None]
+        out = np.zeros((*away.shape[1:], blocks, count))
+        out[where, :, member] = np.moveaxis(change, 0, -1)
+        own = np.diag(((cost[1:] - cost[0]).sum(axis=-1) / steps.T).T.ravel())
+        return np.concatenate([out.reshape(-1, blocks * count), own])
 
-    best, least = start, 0.5 * float((of_one(start) ** 2).sum())
-    sides = [(low, high)]
-    if len(start) == 1:
-        after = whole(np.stack([start - STEP, start + STEP]))
-        downhill = 0.5 * (after**2).sum(axis=1) < least
-        sides = [side for side, down in zip(((low, start), (start, high)), downhill, strict=True) if down]
-    for a, b in sides:
-        inside = np.clip(start, a + NUDGE * (b - a), b - NUDGE * (b - a))
-        found = least_squares(of_one, inside, slopes, (a, b), ftol=ROUGH, xtol=ROUGH, max_nfev=TRIALS)
-        if found.cost < least:
-            best, least = found.x, found.cost
-    return np.asarray(best)
+    begin = start
+    if count == 1:
+        begin = _best_of_some(misses, start, low, high, member)
+        up, down = begin > start, begin < start
+        if not (up | down).any():
+            return start
+        lows, highs = np.where(up, start, lows), np.where(down, start, highs)
+    inside = np.clip(begin, lows + NUDGE * (highs - lows), highs - NUDGE * (highs - lows))
+    bounds = lows.ravel(), highs.ravel()
+    found = least_squares(of_one, inside.ravel(), slopes, bounds, ftol=ROUGH, xtol=ROUGH, max_nfev=most)
+    best = found.x.reshape(blocks, count)
+    after, before = (_block_costs(misses, x, low, high, member) for x in (best, start))
+    return np.where((after < before)[:, None], best, start)
 
 
-def _keyframes(frames: int, frame_time: float) -> Integers:
-    """Return every fifth frame of 30 a second, or fewer evenly spread."""
-    keys = np.arange(0, frames, max(1, round(1.0 / (KEYFRAMES * frame_time))))
-    few = np.linspace(0, len(keys) - 1, min(len(keys), MOST)).round().astype(np.int64)
-    return keys[few]
+def _best_of_some(
+    misses: Callable[[Array], Array], start: Array, low: Array, high: Array, member: Integers
+) -> Array:
+    """Return for each block (B, 1) the best of ``start``, values beside it, and some over the range."""
+    ratios = np.exp(np.linspace(np.log(low[0]), np.log(high[0]), LOOKED_AT))
+    values = np.concatenate([[start[0, 0]], start[0, 0] + STEP * np.array([-1.0, 1.0]), ratios])
+    trials = np.broadcast_to(values[:, None, None], (len(values), *start.shape))
+    rows = (misses(trials) ** 2).sum(axis=-1)
+    costs = np.stack([np.bincount(member, row, minlength=len(start)) for row in rows])
+    costs += (penalty(trials, low, high) ** 2).sum(axis=-1)
+    return values[costs.argmin(axis=0)][:, None]
 
 
-def _at(motion: Motion, frames: Integers) -> Motion:
-    """Return a motion of some frames, with the body of the whole one."""
-    return motion.with_(
-        rotations=motion.rotations[frames],
-        translations=motion.translations[frames],
-        source=None,
-        reference=None,
-    )
+def _block_costs(
+    misses: Callable[[Array], Array], x: Array, low: Array, high: Array, member: Integers
+) -> Array:
+    """Return half the sum of squares (B,) of each block at ``x`` (B, P)."""
+    rows = (misses(x[None])[0] ** 2).sum(axis=-1)
+    own = (penalty(x, low, high) ** 2).sum(axis=-1)
+    return np.asarray(0.5 * (np.bincount(member, rows, minlength=len(x)) + own))

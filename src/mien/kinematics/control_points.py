@@ -28,9 +28,10 @@ from .two_bone import mean_hinge, softened, two_bone
 
 # The coefficients of the rules, in order: g1, g2, and g3 for both hands.
 NAMES: tuple[str, ...] = ("pelvis", "torso", *(f"{side}_{place}" for side in SIDES for place in REFERENCES))
-BACK = 6.0  # degrees
+BACK = 10.0  # degrees
 SOFT = 0.03  # of an arm's length, before it is straight
 STRAIGHT = 0.994  # of a leg's length: as straight as a planted leg gets when the pelvis rises
+NECK = 1.75  # times the turn of the top of the spine that the head makes: acted takes have 1.2 to 2.4
 BENDS = 6  # rounds in which the spine is bent: each leaves less than a third
 
 
@@ -109,34 +110,37 @@ def _share_of_rise(source: Placed, shift: Array, body: Body, planted: Mask) -> A
 def _bent(motion: Motion, body: Body, before: Landmarks, c: Array) -> Motion:
     """Return the motion with the spine bent so that the head is where g2 wants it, seen from the pelvis.
 
-    The turn is shared evenly by the joints of the spine. Only the direction can be met, as the spine has the
-    length it has. Arms go on hanging as they did.
+    The turn is shared evenly by the joints of the spine, and the neck bends on, as people's does. Only the
+    direction can be met, as the spine has the length it has. Arms go on hanging as they did.
     """
     head, pelvis = before["head"], before["pelvis"]
     wanted = torso_vector(head - pelvis, rest_torso(motion, body, before.positions), c)
-    spine = np.array(body.spine)
-    knots = np.concatenate([pelvis[:, None], before.positions[:, spine], head[:, None]], axis=1)
-    turn = _spine_turn(np.diff(knots, axis=1), wanted)
-    own = quaternion.exp(turn / len(spine))
+    necks = body.neck or tuple(body.roles[role] for role in ("head",) if role in body.roles)
+    joints = np.array([*body.spine, *necks])
+    ramp = [np.arange(1, len(body.spine) + 1) / len(body.spine)]
+    ramp += [1.0 + (NECK - 1.0) * np.arange(1, len(necks) + 1) / max(len(necks), 1)]
+    shares = np.concatenate(ramp)
+    knots = np.concatenate([pelvis[:, None], before.positions[:, joints], head[:, None]], axis=1)
+    turn = _spine_turn(np.diff(knots, axis=1), wanted, np.concatenate([[0.0], shares]))
     rotations = np.array(motion.rotations)
-    for joint in spine:
+    for joint, own in zip(joints, np.diff(shares, prepend=0.0), strict=True):
         above = before.rotations[:, motion.skeleton.parents[joint]]
-        inner = quaternion.multiply(quaternion.multiply(quaternion.conjugate(above), own), above)
+        added = quaternion.exp(turn * own)
+        inner = quaternion.multiply(quaternion.multiply(quaternion.conjugate(above), added), above)
         rotations[:, joint] = quaternion.multiply(inner, rotations[:, joint])
     return _hanging(motion.with_(rotations=rotations), body, before)
 
 
-def _spine_turn(parts: Array, wanted: Array) -> Array:
+def _spine_turn(parts: Array, wanted: Array, shares: Array) -> Array:
     """Return the rotation vectors (T, 3) of the top of a spine whose head then lies along ``wanted``.
 
-    ``parts`` (T, N + 1, 3) leads from the pelvis over its N joints to the head; joint i turns by i / N of it.
+    ``parts`` (T, N + 1, 3) leads from the pelvis over its N joints to the head; what is above joint i
+    turns by ``shares`` (N + 1,) of it.
     """
-    count = parts.shape[1] - 1
     turn = np.zeros_like(wanted)
-    shares = np.arange(count + 1)[:, None] / count
     for _ in range(BENDS):
-        turned = quaternion.rotate(quaternion.exp(turn[:, None] * shares), parts)
-        turn = turn + 1.4 * quaternion.log(quaternion.between(turned.sum(axis=1), wanted))
+        turned = quaternion.rotate(quaternion.exp(turn[:, None] * shares[:, None]), parts)
+        turn = turn + 1.2 * quaternion.log(quaternion.between(turned.sum(axis=1), wanted))
     return turn
 
 
