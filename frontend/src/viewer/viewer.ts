@@ -87,6 +87,7 @@ export class Viewer {
   #pace = { pictures: 0, since: 0, fps: 0, ms: 0 };
   #stops: (() => void)[] = [];
   #lost = false;
+  #drawnBy: string | null = null;
   #disposed = false;
 
   constructor(host: HTMLElement, options: ViewerOptions = {}) {
@@ -335,7 +336,9 @@ export class Viewer {
 
   get stats(): Stats {
     const { fps, ms } = this.#pace;
-    return { fps, ms, renderer: rendererName(this.#renderer) };
+    // Asked once: the answer waits for all that is being drawn.
+    this.#drawnBy ??= rendererName(this.#renderer);
+    return { fps, ms, renderer: this.#drawnBy };
   }
 
   /** Places of the leading figure's joints in pixels of the canvas, by name. */

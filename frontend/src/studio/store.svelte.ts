@@ -1,0 +1,291 @@
+// The one store of the page: what is open, what is done to it, and how it is shown.
+import type { ClipInfo, Hello, Layer, Project, Stack } from "../messages";
+import { Playback } from "../playback";
+import { Answers } from "./answers.svelte";
+import type { Api } from "./api";
+import { asSentence } from "./api";
+import { Connection, type Reach } from "./connection";
+import * as histories from "./history";
+import { Notices } from "./notices.svelte";
+import { Keeper, Tabs, keptHere, newer, type Keeping } from "./project";
+import * as stacks from "./stack";
+import { freshView, readView, type View } from "./view";
+
+/** Milliseconds in which a second change of the same kind belongs to the first. */
+const QUICK = 600;
+
+type StackHistory = histories.History<Stack>;
+
+/** Which dialog is open. */
+export type Dialog = "" | "export" | "keys" | "palette" | "help";
+
+export class Studio {
+  readonly playback = new Playback();
+  readonly notices = new Notices();
+  readonly answers: Answers;
+  hello = $state.raw<Hello | null>(null);
+  clips = $state.raw<readonly ClipInfo[]>([]);
+  current = $state("");
+  selected = $state("");
+  view = $state<View>(freshView());
+  dialog = $state<Dialog>("");
+  /** While it is held, the original is shown in place of the edit. */
+  showsOriginal = $state(false);
+  reach = $state<Reach>("there");
+  keeping = $state<Keeping>("kept");
+  /** Another tab keeps the work; this one only looks until it takes it over. */
+  second = $state(false);
+  /** How many files are being opened. */
+  opening = $state(0);
+  #histories = $state.raw<Readonly<Record<string, StackHistory>>>({});
+  #history = $derived(this.#histories[this.current] ?? histories.begun(stacks.EMPTY));
+
+  readonly clip = $derived(this.clips.find((clip) => clip.id === this.current));
+  readonly stack = $derived(this.#history.present.value);
+  readonly layer = $derived(stacks.find(this.stack, this.selected));
+  readonly undoLabel = $derived(this.#history.past.length ? this.#history.present.label : "");
+  readonly redoLabel = $derived(this.#history.future[0]?.label ?? "");
+
+  readonly #connection: Connection;
+  readonly #keeper: Keeper;
+  #tabs: Tabs | undefined;
+  #lately = { label: "", at: 0 };
+
+  constructor(
+    readonly api: Api,
+    private readonly shelf: Storage = localStorage,
+  ) {
+    this.answers = new Answers(
+      api,
+      (sentence) => this.notices.error(sentence),
+      () => this.answers.measure(this.stack, this.view.curves),
+    );
+    this.#keeper = new Keeper(
+      shelf,
+      (project, last) => api.keepProject(project, last),
+      (state, why) => this.#heard(state, why),
+    );
+    this.#connection = new Connection(
+      () => api.hello(),
+      (reach, hello) => void this.#reached(reach, hello),
+    );
+    api.onLost = () => void this.#connection.lost();
+  }
+
+  /** Whether there is a clip with a body that can be changed. */
+  get canEdit(): boolean {
+    return Boolean(this.clip && !this.clip.problem && this.answers.original);
+  }
+
+  /** Begin: learn what the server has, and go on where the work was left. */
+  async begin(): Promise<void> {
+    try {
+      this.hello = await this.api.hello();
+    } catch (problem) {
+      if (this.reach === "there") this.notices.error(asSentence(problem));
+      return;
+    }
+    this.#tabs = new Tabs(
+      () => this.#becomeSecond(),
+      () => this.#becomeSecond(),
+    );
+    this.clips = this.hello.clips;
+    const there = await this.api.project().catch(() => null);
+    await this.take(newer(there, keptHere(this.shelf)), { selectGiven: true });
+  }
+
+  /** Take over a project: the stacks of the clips that are open, the view, and what was shown. */
+  async take(project: Project | null, { selectGiven = false } = {}): Promise<void> {
+    const given = project?.clips ?? [];
+    const known = Object.fromEntries(given.map((clip) => [clip.id, histories.begun(clip.stack)]));
+    this.#histories = selectGiven ? known : { ...this.#histories, ...known };
+    if (project) this.view = readView(project.view);
+    const open = (id: string | undefined) => this.clips.some((clip) => clip.id === id);
+    // A clip that the project does not know was just given on the command line: that is what is wanted.
+    const fresh = selectGiven
+      ? this.clips.find((clip) => !given.some(({ id }) => id === clip.id))
+      : undefined;
+    const wanted = fresh?.id ?? (open(project?.current) ? project!.current : this.clips[0]?.id);
+    await this.select(wanted ?? "");
+  }
+
+  /** Show a clip. */
+  async select(id: string): Promise<void> {
+    this.current = id;
+    this.selected = this.stack.layers.at(-1)?.id ?? "";
+    this.playback.set({ playing: false, time: 0, range: null, ...(id ? {} : { duration: 0 }) });
+    try {
+      await this.answers.show(id);
+    } catch (problem) {
+      if (this.reach === "there") this.notices.error(asSentence(problem));
+      return;
+    }
+    if (this.current !== id || !id) return;
+    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.playback.set({ playing: !calm });
+    this.answers.edit(this.stack, false);
+    this.keep();
+  }
+
+  /**
+   * Change the stack; `label` is what undo calls it. While a hand is still moving (`done` false) changes of
+   * the same label are one step of undo, and answers are quick ones; when it is done, careful ones.
+   */
+  change(label: string, to: (stack: Stack) => Stack, done = true): void {
+    if (!this.current) return;
+    const moving = this.#history.gesture === label;
+    const next = to(this.stack);
+    if (!moving && JSON.stringify(next) === JSON.stringify(this.stack)) return;
+    // Arrow keys that are held or tapped quickly are one movement too.
+    const now = performance.now();
+    const again = done && !moving && this.#goesOn(label, next, now);
+    const before = again ? { ...this.#history, gesture: label } : this.#history;
+    const changed = histories.changed(before, next, label, done && !moving && !again ? "" : label);
+    this.#put(done ? histories.settled(changed) : changed);
+    this.#lately = { label, at: now };
+    if (!stacks.find(next, this.selected)) this.selected = next.layers.at(-1)?.id ?? "";
+    this.answers.edit(next, !done);
+    if (done) this.keep();
+  }
+
+  /** Change a layer. */
+  changeLayer(label: string, id: string, fields: Partial<Omit<Layer, "id">>, done = true): void {
+    this.change(label, (stack) => stacks.change(stack, id, fields), done);
+  }
+
+  /** Make the clip a mood: the one it has changes, or it gets one. */
+  setMood(mood: Pick<Layer, "kind" | "name" | "parameters">, done = true): void {
+    const label = mood.kind === "place" ? "place on the disc" : stacks.moodName(mood.name);
+    const { stack, id } = stacks.setMood(this.stack, this.selected, mood);
+    this.change(label, () => stack, done);
+    this.selected = id;
+  }
+
+  /** Set parameters of an edit by its own sliders, which bring its layer with them. */
+  setEdit(edit: string, parameters: Layer["parameters"], done = true): void {
+    const names = Object.keys(parameters).join(", ");
+    const label = `${edit} ${names}`.replaceAll("_", " ");
+    const { stack, id } = stacks.setEdit(this.stack, this.selected, edit, parameters);
+    this.change(label, () => stack, done);
+    this.selected = id;
+  }
+
+  addLayer(kind: Layer["kind"], name: string, parameters: Layer["parameters"] = {}): void {
+    const layer = stacks.layerFor(this.stack, kind, name, parameters);
+    this.change(`add ${stacks.title(layer).toLowerCase()}`, (stack) => stacks.add(stack, layer));
+    this.selected = layer.id;
+  }
+
+  /** Remove a layer; the one that takes its place is selected. */
+  removeLayer(id: string): void {
+    const at = this.stack.layers.findIndex((layer) => layer.id === id);
+    if (at < 0) return;
+    this.change(`delete ${stacks.title(this.stack.layers[at]!).toLowerCase()}`, (stack) =>
+      stacks.remove(stack, id),
+    );
+    this.selected = (this.stack.layers[at] ?? this.stack.layers.at(-1))?.id ?? "";
+  }
+
+  undo(): void {
+    this.#goTo(histories.undone(this.#history));
+  }
+
+  redo(): void {
+    this.#goTo(histories.redone(this.#history));
+  }
+
+  /** Change how things are shown. */
+  show(fields: Partial<View>): void {
+    Object.assign(this.view, fields);
+    if (fields.curves) this.answers.draw(this.stack, this.view.curves);
+    this.keep();
+  }
+
+  /** Show the curve of a joint, in place of that of another; null takes it away. */
+  pick(joint: string | null): void {
+    const others = this.view.curves.filter((name) => !name.startsWith("joint:"));
+    this.show({ curves: joint ? [...others, `joint:${joint}`] : others });
+  }
+
+  /** All that is worth keeping. */
+  project(): Project {
+    const clips = this.clips.map(({ id, name }) => ({
+      id,
+      name,
+      stack: this.#histories[id]?.present.value ?? stacks.EMPTY,
+    }));
+    const view = { ...$state.snapshot(this.view), saved: Date.now() };
+    return { clips, current: this.current, view, mien_project: 1 };
+  }
+
+  /** How many layers a clip has, for lists. */
+  layersOf(id: string): number {
+    return this.#histories[id]?.present.value.layers.length ?? 0;
+  }
+
+  /** Close a dialog, unless another one is open by now. */
+  closeDialog(dialog: Dialog): void {
+    if (this.dialog === dialog) this.dialog = "";
+  }
+
+  keep(): void {
+    if (!this.second) this.#keeper.keep(this.project());
+  }
+
+  /** The page goes away. */
+  leave(): void {
+    this.#keeper.flush();
+  }
+
+  /** Go on in this tab; the other one only looks from now on. */
+  takeOver(): void {
+    this.second = this.#keeper.paused = false;
+    this.#tabs?.take();
+    this.keep();
+  }
+
+  #becomeSecond(): void {
+    this.second = this.#keeper.paused = true;
+  }
+
+  /** Whether a change follows so soon on one of the same kind that both are one step. */
+  #goesOn(label: string, next: Stack, now: number): boolean {
+    const { past, present } = this.#history;
+    const same = present.label === label && this.#lately.label === label && past.length > 0;
+    return same && now - this.#lately.at < QUICK && next.layers.length === this.stack.layers.length;
+  }
+
+  #goTo(history: StackHistory): void {
+    if (history === this.#history) return;
+    this.#put(history);
+    this.#lately = { label: "", at: 0 };
+    if (!stacks.find(this.stack, this.selected)) this.selected = this.stack.layers.at(-1)?.id ?? "";
+    this.answers.edit(this.stack, false);
+    this.keep();
+  }
+
+  #put(history: StackHistory): void {
+    this.#histories = { ...this.#histories, [this.current]: history };
+  }
+
+  #heard(state: Keeping, why: string): void {
+    if (state === "failed" && this.keeping !== "failed") this.notices.error(`Not kept: ${why}.`);
+    this.keeping = state;
+  }
+
+  async #reached(reach: Reach, hello: Hello | null): Promise<void> {
+    this.reach = reach;
+    if (!hello) return;
+    this.hello = hello;
+    const missing = this.current && !hello.clips.some((clip) => clip.id === this.current);
+    this.clips = hello.clips;
+    this.#keeper.again();
+    if (missing) {
+      const [first] = hello.clips;
+      this.notices.error("The clip is not open in mien any more: open its file again, its layers are kept.");
+      return this.select(first?.id ?? "");
+    }
+    if (!this.answers.original) return this.select(this.current);
+    this.answers.edit(this.stack, false);
+  }
+}
