@@ -25,7 +25,7 @@ from mien.samples import SAMPLES, SKELETONS
 
 # Edit -> parameters to try beside the defaults. Every new edit gets a line here.
 CASES: Mapping[str, list[dict[str, Any]]] = {
-    "bounce": [{"gain": 2.0}, {"gain": 0.3}],
+    "bounce": [{"gain": 2.0}, {"gain": 0.3}, {"beat": 0.02}],
     "control_points": [
         {"pelvis": 0.92, "torso": 0.6},
         {"left_head": 1.3, "right_head": 1.3, "left_pelvis": 1.2, "right_pelvis": 1.2},
@@ -64,6 +64,7 @@ CASES: Mapping[str, list[dict[str, Any]]] = {
         {"hips_tilt": 2.0, "hips_turn": 0.5},
         {"shoulders_tilt": 2.5, "shoulders_turn": 1.8},
         {"hips_tilt": 0.4, "hips_turn": 2.0, "shoulders_tilt": 0.5, "shoulders_turn": 0.4},
+        {"shift": 5},
     ],
     "tempo": [{"rate": 1.25}, {"rate": 0.8, "travel": "speed"}, {"rate": 1.5, "flight": "free"}],
     "timing": [

@@ -13,9 +13,9 @@ ENDS = 1.0  # seconds whose straight line goes on beyond each end
 def to_and_fro(values: Array, frame_time: float, *, frames: int = 0) -> Array:
     """Return ``values`` (T, ...) less their slow course, without noise: 0.5 to 8 Hz (half amplitude).
 
-    Both are Gaussians, so nothing rings. Beyond the ends the straight line of the last second goes on, so that
-    what steadily rises, such as the heading of a turn, has no residue there. ``frames`` above 0 is the length
-    of one round of a loop (``loops.period``): beyond its ends is the next round.
+    Both are Gaussians, so nothing rings. Beyond the ends the straight line of the last second goes on, so
+    that what steadily rises, such as the heading of a turn, has no residue there. ``frames`` above 0 is the
+    length of one round of a loop (``loops.period``): beyond its ends is the next round.
     """
     values = np.asarray(values, dtype=float)
     pad = int(np.ceil(4.0 * _HALF / SLOW / frame_time)) + 1
