@@ -44,7 +44,10 @@ def _line(part: Array) -> tuple[Array, Array]:
 
 def _rounds(flat: Array, frames: int, pad: int) -> Array:
     """Return ``flat`` (T, C) with other rounds around it, each further on by what a round adds."""
-    repeats = len(flat) > frames
-    added = flat[frames] - flat[0] if repeats else (flat[-1] - flat[0]) * frames / max(frames - 1, 1)
+    if len(flat) > frames:  # the last frame is the first of the next round
+        added = flat[frames] - flat[0]
+    else:
+        steps = np.diff(flat, axis=0)
+        added = flat[-1] - flat[0] + 0.5 * (steps[0] + steps[-1]) if len(steps) else flat[0] * 0.0
     at = np.arange(-pad, len(flat) + pad)
     return flat[at % frames] + (at // frames)[:, None] * added
