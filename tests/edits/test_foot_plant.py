@@ -194,6 +194,7 @@ def test_feet_stand_turned_out_or_in_by_the_share_that_is_kept(share: float, deg
         for start, stop in contacts.spans(foot):
             here, there = (world(m)[0][start:stop, ankle] for m in (after, walk))
             yaw = quat.log(quat.multiply(here, quat.conjugate(there))) @ body.up
-            assert np.degrees(yaw).mean() == pytest.approx(sign * share * degrees, abs=1.5)
+            # A foot that is on its toes turns about its own axis, which is not upright.
+            assert np.degrees(yaw).mean() == pytest.approx(sign * share * degrees, rel=0.25, abs=0.1)
             assert np.ptp(np.degrees(yaw)) < 1.0
     assert (slides(after, contacts, body) - slides(walk, contacts, body)).max() < 0.002
