@@ -99,6 +99,29 @@ def waveshape() -> "Image":
     return render.compare(rows, against=calm)
 
 
+def sway() -> "Image":
+    """Show a walk whose hips sway more, and one whose shoulders do."""
+    calm = walk()
+    rows = {
+        "hips tilt 2.5": done(calm, Step("sway", {"hips_tilt": 2.5})),
+        "shoulders tilt and turn 2.5": done(
+            calm, Step("sway", {"shoulders_tilt": 2.5, "shoulders_turn": 2.5})
+        ),
+    }
+    return render.compare(rows, against=calm, views=["front"], poses=10)
+
+
+def bounce() -> "Image":
+    """Show a walk that glides, one that bounces, and somebody who waves and bounces."""
+    calm, wave = walk(), samples.wave().motion
+    rows = {f"gain {gain:g}": done(calm, Step("bounce", {"gain": gain})) for gain in (0.0, 2.5)}
+    waving = {"beat 0.03": done(wave, Step("bounce", {"beat": 0.03}))}
+    return below(
+        render.compare(rows, against=calm, poses=10, views=["side"]),
+        render.compare(waving, against=wave, poses=10, views=["side"]),
+    )
+
+
 def displacement() -> "Image":
     """Show a walk in which the walker glances down, then lifts a hand and looks at it."""
     calm = walk()
@@ -281,6 +304,7 @@ def below(*images: "Image") -> "Image":
 PICTURES: Mapping[str, Callable[[], "Image"]] = {
     **{f"methods/{f.__name__}": f for f in (waveshape, nervous, tempo, displacement, tremor, control_points)},
     **{f"methods/{f.__name__}": f for f in (path_length, posture, timing, impacts, grid, foot_plant)},
+    **{f"methods/{f.__name__}": f for f in (sway, bounce)},
     **{f"methods/{f.__name__}": f for f in (repair, restore, trim, resample, mirror, in_place)},
     "presets": presets,
     "disc": disc,

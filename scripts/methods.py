@@ -37,6 +37,8 @@ SHOWN = {
     "trim": {"start": 0.5, "end": 2.0},
     "path_length": {"mid": 1.5},
     "waveshape": {"small": 0.4},
+    "sway": {"hips_tilt": 2.0},
+    "bounce": {"gain": 2.0},
     "displacement": {"keys": "0.5 none | 1 head 25 0 0 | 2 none"},
     "tremor": {"amount": 2.0},
     "nervous": {"paths": 0.8, "rhythm": 0.15},

@@ -13,6 +13,7 @@ from mien.kinematics.body import Body
 from mien.kinematics.contacts import detect, foot_points, slides, spans
 from mien.kinematics.fk import world
 from mien.recipe import Step
+from mien.rotations import quaternion as quat
 
 
 def lengths(motion):
@@ -177,3 +178,23 @@ def test_two_presets_one_after_the_other_travel_as_far_as_planted_once_at_the_en
     distance = [np.linalg.norm(world(m)[1][-1, hips] - world(m)[1][0, hips]) for m in (one, other)]
     assert distance[0] == pytest.approx(distance[1], rel=0.03)
     assert soles(one, Body.of(motion)).min() > soles(motion, Body.of(motion)).min() - 0.2
+
+
+@pytest.mark.parametrize("degrees", [12.0, -8.0])
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_feet_stand_turned_out_or_in_by_the_share_that_is_kept(share: float, degrees: float) -> None:
+    """Oracle: the yaw of each foot in the world, in the middle of its contacts; and nothing slides."""
+    walk = samples.walk(seconds=4.0).motion
+    body = Body.of(walk)
+    pose = f"left_ankle 0 {degrees} 0; right_ankle 0 {-degrees} 0"
+    after = mien.apply(walk, [Step("posture", {"pose": pose}), Step("foot_plant", {"turn": share})])
+    contacts = detect(walk, body=body)
+    for foot, sign in ((0, 1.0), (1, -1.0)):
+        ankle = body.roles[f"{('left', 'right')[foot]}_ankle"]
+        for start, stop in contacts.spans(foot):
+            here, there = (world(m)[0][start:stop, ankle] for m in (after, walk))
+            yaw = quat.log(quat.multiply(here, quat.conjugate(there))) @ body.up
+            # A foot that is on its toes turns about its own axis, which is not upright.
+            assert np.degrees(yaw).mean() == pytest.approx(sign * share * degrees, rel=0.25, abs=0.1)
+            assert np.ptp(np.degrees(yaw)) < 1.0
+    assert (slides(after, contacts, body) - slides(walk, contacts, body)).max() < 0.002

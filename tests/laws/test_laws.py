@@ -25,6 +25,7 @@ from mien.samples import SAMPLES, SKELETONS
 
 # Edit -> parameters to try beside the defaults. Every new edit gets a line here.
 CASES: Mapping[str, list[dict[str, Any]]] = {
+    "bounce": [{"gain": 2.0}, {"gain": 0.3}, {"beat": 0.02}],
     "control_points": [
         {"pelvis": 0.92, "torso": 0.6},
         {"left_head": 1.3, "right_head": 1.3, "left_pelvis": 1.2, "right_pelvis": 1.2},
@@ -59,6 +60,12 @@ CASES: Mapping[str, list[dict[str, Any]]] = {
     "repair": [{}, {"what": ("limits", "floor")}],
     "resample": [{"fps": 40}],
     "restore": [{"amount": 0.5}, {"amount": 1.0}],
+    "sway": [
+        {"hips_tilt": 2.0, "hips_turn": 0.5},
+        {"shoulders_tilt": 2.5, "shoulders_turn": 1.8},
+        {"hips_tilt": 0.4, "hips_turn": 2.0, "shoulders_tilt": 0.5, "shoulders_turn": 0.4},
+        {"shift": 5},
+    ],
     "tempo": [{"rate": 1.25}, {"rate": 0.8, "travel": "speed"}, {"rate": 1.5, "flight": "free"}],
     "timing": [
         {"acceleration": 0.6},

@@ -43,13 +43,18 @@ def foot_plant(
     original: Motion | None = None,
     travel: Annotated[bool, Param("let longer or shorter steps change the distance travelled")] = True,
     blend: Annotated[float, Param("blends corrections in and out", low=0.02, high=1.0, unit="s")] = 0.25,
+    turn: Annotated[
+        float, Param("how much of what the edit turned feet out or in stays as they stand", 0.0, 1.0)
+    ] = 0.0,
 ) -> Motion:
     """Keep planted feet where they stand, after any edit of the pose.
 
     ``original`` is the motion before the edits, with the same skeleton and frames; its contacts and its
     foot placements are kept; the history does not hold it, so that only what was planted against the
-    motion's own beginning replays. Without it the motion itself is taken, which changes nothing. Bone lengths
-    are kept; a target out of reach lowers the hips. Raises ``MienError`` when the frames differ.
+    motion's own beginning replays. Without it the motion itself is taken, which changes nothing. With
+    ``turn`` each foot stands turned about the vertical by that share of what the edit turned it on average of
+    the contact: toes out or in. Bone lengths are kept; a target out of reach lowers the hips. Raises
+    ``MienError`` when the frames differ.
     """
     original = original or motion
     if motion.rotations.shape != original.rotations.shape:
@@ -62,7 +67,7 @@ def foot_plant(
     contacts = detect_points(before.feet, body, motion.frame_time)
     shift = _hips_shift(before, after, contacts, body, travel)
     after = shifted(after, shift, body)
-    goals = [_goal(before, after, contacts, body, foot, blend) for foot in range(2)]
+    goals = [_goal(before, after, contacts, body, foot, blend, turn) for foot in range(2)]
     return put_feet(before, after, goals, contacts.feet, body)
 
 
@@ -121,16 +126,27 @@ def _settled(contacts: Contacts, frame_time: float) -> Array:
     return out
 
 
-def _goal(before: Placed, after: Placed, contacts: Contacts, body: Body, foot: int, blend: float) -> Goal:
-    """Return the path of one ankle: planted as in the original, moved with the step; else the edit's own."""
+def _goal(
+    before: Placed, after: Placed, contacts: Contacts, body: Body, foot: int, blend: float, keep: float
+) -> Goal:
+    """Return the path of one ankle: planted as in the original, moved with the step; else the edit's own.
+
+    ``keep`` is the share of the edit's turns about the vertical that stays.
+    """
     ankle, dt = body.roles[f"{SIDES[foot]}_ankle"], after.motion.frame_time
     here, there = after.positions[:, ankle], before.positions[:, ankle]
     planted = contacts.feet[:, foot]
     wrong = there - here
+    astray = quaternion.multiply(before.rotations[:, ankle], quaternion.conjugate(after.rotations[:, ankle]))
     for start, stop in contacts.spans(foot):
         moved = (here - there)[start:stop].mean(axis=0)
         wrong[start:stop] += moved - (moved @ body.up) * body.up
-    astray = quaternion.multiply(before.rotations[:, ankle], quaternion.conjugate(after.rotations[:, ankle]))
+        if keep:  # the whole step, as it rolls from heel to toe, turns about one place
+            yaw = float((quaternion.log(astray[start:stop]) @ body.up).mean())
+            left = quaternion.exp(-keep * yaw * body.up)
+            arm = there[start:stop] - there[start:stop].mean(axis=0)
+            wrong[start:stop] += quaternion.rotate(left, arm) - arm
+            astray[start:stop] = quaternion.multiply(left, astray[start:stop])
     reach = round(blend / dt)
     offset = curve_gaps(wrong, planted, reach=reach)
     turned = curve_gaps(quaternion.log(astray), planted, reach=reach)

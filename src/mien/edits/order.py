@@ -7,7 +7,8 @@ from .registry import EDITS
 
 # An edit that is not named follows its kind.
 ORDER = (
-    *("trim", "resample", "mirror", "grid", "path_length", "waveshape", "nervous", "timing"),
+    *("trim", "resample", "mirror", "grid", "path_length", "waveshape", "sway", "bounce"),
+    *("nervous", "timing"),
     *(
         "posture",
         "control_points",

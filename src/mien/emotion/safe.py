@@ -80,7 +80,7 @@ class _Search:
         self.motion, self.original = motion, original
         self.source = Scene.of(original)
         self.known = measured(self.source)
-        self.plants = any(step.edit == "foot_plant" for step in motion.history)
+        self.plants = [Step(s.edit, s.parameters) for s in motion.history if s.edit == "foot_plant"][-1:]
         self.amounts = {limb: np.zeros(len(motion)) for limb in LIMBS}
         self.why: dict[str, set[str]] = {limb: set() for limb in LIMBS}
 
@@ -104,7 +104,7 @@ class _Search:
         """Return the motion reverted as a whole, by as little as it can be: the last resort."""
         for share in (THIRD, 2.0 * THIRD):
             back = Step("restore", {"amount": share, "travel": True, "why": LAST})
-            out = pipeline.apply(self.motion, [back, *([Step("foot_plant")] if self.plants else [])])
+            out = pipeline.apply(self.motion, [back, *self.plants])
             if not self.check(out).failed:
                 return out
         return pipeline.apply(self.motion, [Step("restore", {"amount": 1.0, "travel": True, "why": LAST})])
@@ -128,7 +128,7 @@ class _Search:
             curve = _keys(self.amounts[limbs[0]], self.motion, ramp)
             steps.append(Step("restore", {"amount": curve, "why": why}, parts=tuple(limbs)))
         if self.plants and any({"torso", "left_leg", "right_leg"} & set(step.parts) for step in steps):
-            steps.append(Step("foot_plant"))
+            steps += self.plants
         return pipeline.apply(self.base, steps) if steps else self.base
 
     def more(self, report: Report, turn: int) -> None:
