@@ -12,7 +12,8 @@ import learned
 from acted import STYLES, Take
 
 import mien
-from mien.emotion.presets import PRESETS
+from mien.emotion import search
+from mien.emotion.presets import PRESETS, preset
 
 Edit = Callable[[mien.Motion, str], mien.Motion]
 Pairs = Sequence[tuple[Take, Take]]
@@ -78,6 +79,16 @@ def presets(prefix: str = "", edit: Edit = mien.edit) -> Method:
     return Method({style: word for style, word in found.items() if word}, edit, near=near)
 
 
+def searched(motion: mien.Motion, word: str) -> mien.Motion:
+    """Return an edit by the recipe of a preset, as strong as the clip needs to show it."""
+    return mien.edit(motion, search.searched(motion, preset(word)))
+
+
+def stronger(motion: mien.Motion, word: str) -> mien.Motion:
+    """Return an edit by a preset at 1.3 times its strength, whatever the clip."""
+    return mien.edit(motion, word, strength=1.3)
+
+
 def nothing(motion: mien.Motion, word: str) -> mien.Motion:
     """Return the clip itself: what a recogniser says of it is what chance gives."""
     return motion
@@ -95,6 +106,8 @@ def moved(motion: mien.Motion, word: str, *, method: str) -> mien.Motion:
 METHODS: dict[str, Method] = {
     "s0": presets("s0/"),
     "default": presets(),
+    "search": presets(edit=searched),
+    "default-stronger": presets(edit=stronger),
     "default-bare": presets(edit=bare),
     "crude": Method({style: style for style in STYLES}, learn=crude.learn),
     "crude-bare": Method({style: style for style in STYLES}, learn=partial(crude.learn, keep_safe=False)),

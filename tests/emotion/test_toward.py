@@ -8,6 +8,7 @@ import mien
 from mien import samples
 from mien.analysis.manner import Manner, difference
 from mien.emotion.circumplex import point
+from mien.emotion.presets import preset
 from mien.emotion.toward import Like, aim
 from mien.errors import RecipeError
 from mien.motion import Motion
@@ -34,7 +35,10 @@ def test_where_it_is_already_nothing_changes_to_the_last_bit(walk: Motion) -> No
 
 
 def test_a_word_that_is_a_preset_is_that_preset(walk: Motion) -> None:
-    assert same(mien.toward(walk, to="tired"), mien.edit(walk, "tired"))
+    assert same(mien.toward(walk, to="tired", method="plain"), mien.edit(walk, "tired"))
+    searched, written = aim(to="tired").recipe(walk), preset("tired")
+    assert [step.edit for step in searched.steps] == [step.edit for step in written.steps]
+    assert all(float(step.strength) >= 1.0 for step in searched.steps)  # type: ignore[arg-type]
 
 
 def test_what_is_asked_is_what_is_read(walk: Motion) -> None:

@@ -47,7 +47,11 @@ Start = Annotated[
     typer.Option(metavar="WORD", help="Where the clips are now, a word or V,A; without it in the middle."),
 ]
 Way = Annotated[
-    str, typer.Option("--method", help="How to move there: recipe (presets), rules or joint (learned).")
+    str,
+    typer.Option(
+        "--method",
+        help="How to move there: recipe (presets, as strong as the clip needs), plain, rules, joint.",
+    ),
 ]
 Model = Annotated[
     Path | None,

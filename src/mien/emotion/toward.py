@@ -1,8 +1,10 @@
 """Move a motion to a place on the circumplex: to a word, to a point, or by so much from where it is.
 
-The way is a recipe. ``recipe`` (the default) interpolates the presets over the disc (``palette``): no data, a
-readable list of steps that can be tuned by hand. ``rules`` and ``joint`` are the synthesis of Aristidou et
-al. (2017), which need a learned model (``synthesis``). What comes out can be read back (``reading``).
+The way is a recipe. ``recipe`` (the default) interpolates the presets over the disc (``palette``) and
+searches how much of that this clip needs to show it (``search``): no data, a readable list of steps that can
+be tuned by hand. ``plain`` is the same without the search. ``rules`` and ``joint`` are the synthesis of
+Aristidou et al. (2017), which need a learned model (``synthesis``). What comes out can be read back
+(``reading``).
 """
 
 from collections.abc import Sequence
@@ -18,14 +20,16 @@ from ..recipe import Recipe
 from .circumplex import Point, clamp, point
 from .example import fitted
 from .model import EmotionModel
-from .palette import recipe_at
+from .palette import as_steps, recipe_at, settings_at
 from .presets import OWN, preset
 from .reading import read
 from .resolve import Strength, edit
+from .search import stronger, times_for
 
-Method = Literal["recipe", "rules", "joint"]
-METHODS = ("recipe", "rules", "joint")
+Method = Literal["recipe", "plain", "rules", "joint"]
+METHODS = ("recipe", "plain", "rules", "joint")
 NOWHERE = Point(0.0, 0.0)
+REACH = 0.8  # how far from the centre words are: a clear change is that of such a place, nearer is less
 
 
 @dataclass(frozen=True)
@@ -46,13 +50,31 @@ class Aim:
         require_motion(motion)
         if self.to == self.start:
             return Recipe(self.name, (), safe=True)
-        if self.method != "recipe":
+        if self.method in ("rules", "joint"):
             from .synthesis import synthesise
 
             return synthesise(motion, self.to, start=self.start, method=self.method, model=self.model)
+        whole = self._written()
+        if self.method == "plain" or not whole.steps:
+            return whole
+        return stronger(whole, times_for(motion, self._far(whole)))
+
+    def _written(self) -> Recipe:
+        """Return the recipe whatever the clip: the preset of the word, or what is between the presets."""
         if self.start == NOWHERE and self.name in OWN:
             return preset(self.name)
         return Recipe(self.name, recipe_at(*self.to, start=self.start).steps, safe=True)
+
+    def _far(self, whole: Recipe) -> Recipe:
+        """Return the recipe as far from the start as words are, the same way: how clear it is, is seen there.
+
+        So the search says the same for all places on one way from the start, and further stays more.
+        """
+        if self.start == NOWHERE and self.name in OWN:
+            return whole
+        numbers = settings_at(*self.to) - settings_at(*self.start)
+        away = float(np.hypot(*np.subtract(self.to, self.start)))
+        return replace(whole, steps=as_steps(numbers * (REACH / away)))
 
     def reached(self, before: Motion, after: Motion, *, model: EmotionModel | None = None) -> str:
         """Return in words what was asked for and what a learned model reads in the result."""
