@@ -47,6 +47,12 @@ BODY = ("head", "torso", "legs")
 KNOBS = (
     Knob("path_length", "mid", 0.3, BODY, factor=True),
     Knob("path_length", "mid", 0.3, ("arms",), factor=True),
+    Knob("sway", "hips_turn", 0.3, factor=True),
+    Knob("sway", "shoulders_tilt", 0.3, factor=True),
+    Knob("sway", "shoulders_turn", 0.3, factor=True),
+    Knob("sway", "shift", 2.0),
+    Knob("bounce", "gain", 0.4, factor=True),
+    Knob("bounce", "beat", 0.01),
     Knob("timing", "acceleration", 0.4),
     Knob("timing", "acceleration", 0.4, fixed=(("where", "impacts"),)),
     Knob("posture", "head", 12.0),
@@ -61,7 +67,12 @@ KNOBS = (
     Knob("tempo", "rate", 0.15, factor=True),
 )
 CENTRE = Point(0.0, 0.0)
-DIGITS = {"hips_height": 3, "mid": 2, "acceleration": 2, "rate": 2}
+DIGITS = {
+    "hips_height": 3,
+    "beat": 3,
+    **dict.fromkeys(("mid", "acceleration", "rate", "gain", "hips_turn"), 2),
+    **dict.fromkeys(("shoulders_tilt", "shoulders_turn"), 2),
+}
 
 
 def settings(steps: Iterable[Step]) -> Array:
