@@ -29,7 +29,8 @@ def test_there_and_back_cancel() -> None:
     back = settings(recipe_at(*point("happy"), start=point("sad")).steps)
     about = [EDITS[knob.edit].parameters[knob.parameter].about for knob in KNOBS]
     both_ways = np.array([a.low < a.neutral < a.high for a in about])  # a beat can be made, not taken out
-    np.testing.assert_allclose(there[both_ways], -back[both_ways], atol=1e-2)
+    # Factors are written with two digits, so their logarithms are a hundredth or two off.
+    np.testing.assert_allclose(there[both_ways], -back[both_ways], atol=2e-2)
     assert (there[~both_ways] * back[~both_ways] == 0.0).all()
     assert both_ways.sum() > 15
 
