@@ -20,7 +20,7 @@ function made(kept: Project | null = null, shelf = new Map<string, string>()) {
   const edits: EditRequest[] = [];
   const api = {
     hello: vi.fn().mockResolvedValue({ clips } as unknown as Hello),
-    project: () => (kept ? Promise.resolve(kept) : Promise.reject(new Failed("said", "none", 404))),
+    project: () => (kept ? Promise.resolve(kept) : Promise.resolve(null)),
     keepProject: vi.fn().mockResolvedValue(undefined),
     motion: vi.fn().mockResolvedValue(motion),
     edit: vi.fn((request: EditRequest) => Promise.resolve(edits.push(request) && { ...motion })),
