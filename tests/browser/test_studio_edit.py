@@ -1,0 +1,433 @@
+"""Changing a clip by mouse, and all of it by keyboard alone; one movement of the hand is one step of undo."""
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from mien import edit, load
+from mien.emotion.circumplex import words
+from mien.formats import bvh
+
+from .driving import Studio, V, columns, middle, numbers, thumb
+
+KEY = re.compile("^Key")
+
+
+def strength_of(studio: Studio) -> float:
+    return float(studio.slider("Overall").input_value())
+
+
+def test_a_mood_by_its_picture(walking: Studio) -> None:
+    before = walking.pixels()
+    walking.mood("sad")
+    assert walking.layers() == ["Sad"]
+    assert walking.moods.get_by_role("button", name="sad", exact=True).get_attribute("aria-pressed") == "true"
+    assert walking.pixels() != before
+    assert (
+        "reads near"
+        in walking.page.get_by_role("complementary", name="Edit").get_by_role("status").last.inner_text()
+    )
+    walking.mood("tired")
+    assert walking.layers() == ["Tired"], "a clip has one mood until more are added on purpose"
+    walking.moods.get_by_role("button", name="proud", exact=True).click(modifiers=["Shift"])
+    walking.settle()
+    assert walking.layers() == ["Tired", "Proud"]
+    walking.mood("proud")
+    assert walking.layers() == ["Tired"], "the chosen one goes, the other one becomes the mood"
+
+
+def test_one_drag_is_one_step(walking: Studio) -> None:
+    walking.mood("sad")
+    walking.drag(thumb(walking.slider("Overall")), *[(-4, 0)] * 8)
+    walking.settle()
+    weak = strength_of(walking)
+    assert 0.1 < weak < 0.8
+    assert walking.undo_name() == "Undo overall strength"
+    walking.press("Control+z")
+    assert strength_of(walking) == 1
+    assert walking.undo_name() == "Undo sad"
+    walking.press("Control+Shift+Z")
+    assert strength_of(walking) == weak
+    walking.press("Control+z", "Control+z")
+    assert walking.layers() == []
+    assert walking.button(re.compile("^Undo")).is_disabled()
+    walking.button("Redo sad").click()
+    walking.button("Redo overall strength").click()
+    walking.settle()
+    assert (walking.layers(), strength_of(walking)) == (["Sad"], weak)
+    assert walking.button(re.compile("^Redo")).is_disabled()
+
+
+def test_undone_looks_as_before(walking: Studio) -> None:
+    walking.mood("sad")
+    sad = walking.pixels()
+    walking.mood("excited")
+    assert walking.pixels() != sad
+    walking.press("Control+z")
+    walking.settle()
+    assert walking.pixels() == sad
+
+
+def test_a_slider_brings_its_layer(walking: Studio) -> None:
+    walking.tab("Body")
+    posture = walking.part("Posture").or_(walking.page.get_by_role("region", name=re.compile("^Posture")))
+    head = posture.get_by_role("slider", name="head", exact=True)
+    before = walking.pixels()
+    walking.drag(thumb(head), (12, 0), (12, 0))
+    walking.settle()
+    assert walking.layers() == ["Posture"]
+    bent = float(head.input_value())
+    assert bent > 10
+    assert walking.pixels() != before
+    given = numbers(walking.export())
+    posture.get_by_role("spinbutton", name="head, typed").fill("0")
+    posture.get_by_role("spinbutton", name="head, typed").press("Enter")
+    walking.settle()
+    assert not (numbers(walking.export()) == given).all()
+    posture.get_by_role("button", name="Reset posture").click()
+    assert walking.layers() == []
+
+
+def test_by_keyboard_alone(studio: Studio, tmp_path: Path) -> None:
+    """From an empty page to an exported file without a pointer."""
+    studio.press("Control+k")
+    studio.page.keyboard.type("sample wave")
+    studio.press("Enter")
+    studio.settle()
+    studio.press("Control+k")
+    studio.page.keyboard.type("make it tired")
+    studio.press("Enter")
+    studio.settle()
+    assert studio.layers() == ["Tired"]
+    tab_to(studio, "Strength")
+    studio.press("Home", "PageUp", "PageUp")
+    amount = float(studio.slider("Strength").input_value())
+    assert 0 < amount < 1
+    studio.settle()
+    tab_to(studio, "left leg", back=False)
+    studio.press("Space")
+    studio.settle()
+    studio.press("Control+z")
+    studio.settle()
+    studio.press("Control+e")
+    studio.page.get_by_role("dialog").wait_for()
+    with studio.page.expect_download() as given:
+        tab_to(studio, "Export", inside="dialog")
+        studio.press("Enter")
+    assert given.value.suggested_filename == "wave_edited.bvh"
+    studio.settle()
+    source = next((studio.server.folder / "clips").iterdir())
+    expected = bvh.render(edit(load(source), "tired", strength=amount))
+    assert Path(given.value.path()).read_bytes() == expected
+    studio.press("g")
+    assert studio.page.get_by_role("radio", name="Edited").is_checked(), "keys work after a dialog"
+
+
+def tab_to(studio: Studio, name: str, *, back: bool = False, inside: str = "body") -> None:
+    """Press Tab until a control has the focus."""
+    for _ in range(200):
+        studio.press("Shift+Tab" if back else "Tab")
+        if studio.page.evaluate(
+            """([name, inside]) => {
+              const here = document.activeElement;
+              const label = here.ariaLabel || here.labels?.[0]?.innerText || here.innerText || "";
+              if (here.role === "spinbutton") return false;
+              return label.split("\\n")[0].trim() === name && here.closest(inside) !== null;
+            }""",
+            [name, inside],
+        ):
+            return
+    pytest.fail(f"Tab never comes to {name}")
+
+
+def test_menus_by_keys(walking: Studio) -> None:
+    walking.button("Edit").focus()
+    walking.press("ArrowDown")
+    menu = walking.page.get_by_role("menu", name="Edit")
+    assert menu.get_by_role("menuitem", name="Undo").is_disabled()
+    focused = lambda: walking.page.evaluate("document.activeElement.innerText.trim()")  # noqa: E731
+    assert focused().startswith("Keep feet on the floor")
+    walking.press("End")
+    assert focused().startswith("Make safe")
+    walking.press("Escape")
+    assert menu.count() == 0
+    assert focused() == "Edit"
+    walking.press("Enter", "k", "Enter")
+    walking.settle()
+    assert not walking.page.get_by_role("checkbox", name="Feet on the floor").is_checked()
+    assert walking.undo_name() == "Undo feet on the floor"
+
+
+def test_own_keys(walking: Studio) -> None:
+    walking.press("?")
+    row = walking.button("G, change the key of Ghost of the original")
+    row.click()
+    walking.press("h")
+    assert walking.button("H, change the key of Ghost of the original").is_visible()
+    walking.close_dialog()
+    ghost = walking.page.get_by_role("radio", name="Ghost")
+    assert ghost.is_checked()
+    walking.press("g")
+    assert ghost.is_checked()
+    walking.press("h")
+    assert not ghost.is_checked()
+    walking.page.reload()
+    walking.settle()
+    walking.press("h")
+    assert ghost.is_checked(), "they are kept"
+    walking.press("?")
+    walking.button("Restore all").click()
+    assert row.is_visible()
+
+
+class TestDisc:
+    def test_by_mouse(self, walking: Studio) -> None:
+        disc = walking.page.get_by_role("group", name="Emotion")
+        x, y = middle(disc.locator("svg .rim"))
+        radius = disc.locator("svg .rim").bounding_box()["width"] / 2
+        walking.drag((x, y), (-radius / 4, 0), (-radius / 4, radius / 2))
+        walking.settle()
+        valence, arousal = (float(walking.slider(name).input_value()) for name in ("Valence", "Arousal"))
+        assert (valence, arousal) == (pytest.approx(-0.5, abs=0.03), pytest.approx(-0.5, abs=0.03))
+        assert walking.layers() == [f"Disc −{-valence:.2f}, −{-arousal:.2f}"]
+        assert walking.undo_name() == "Undo place on the disc"
+        walking.press("Control+z")
+        assert walking.layers() == []
+
+    def test_through_the_accessibility_tree(self, walking: Studio) -> None:
+        """A screen reader meets two sliders that say the whole place, and a status that says the rest."""
+        tree = walking.page.get_by_role("group", name="Emotion").aria_snapshot()
+        assert '- slider "Valence"' in tree
+        assert '- slider "Arousal"' in tree
+        valence, arousal = walking.slider("Valence"), walking.slider("Arousal")
+        assert valence.get_attribute("aria-valuetext") == "nothing asked for"
+        valence.focus()
+        for _ in range(6):
+            walking.press("ArrowLeft")
+        for _ in range(5):
+            walking.press("ArrowDown")
+        walking.settle()
+        near = min(words(), key=lambda word: math.dist(words()[word], (-0.3, -0.25)))
+        assert valence.get_attribute("aria-valuetext") == (
+            f"valence −0.3 unpleasant, arousal −0.25 calm, near {near}"
+        )
+        assert arousal.evaluate("one => one === document.activeElement")
+        assert walking.layers() == ["Disc −0.30, −0.25"]
+        tree = walking.page.get_by_role("group", name="Emotion").aria_snapshot()
+        assert re.search(rf"asked\n +- definition: −0.30?, −0.25, near {near}", tree)
+        assert re.search(r"reached\n +- definition:\n +- status: [−0-9.]+, [−0-9.]+, near \w+", tree)
+        walking.type("Valence, typed", "0.4")
+        assert walking.layers() == ["Disc +0.40, −0.25"]
+        walking.button("clear").click()
+        walking.settle()
+        assert walking.layers() == []
+
+    def test_by_other_means(self, walking: Studio) -> None:
+        walking.slider("Valence").focus()
+        walking.press("PageDown")
+        walking.settle()
+        first = walking.export("Recipe").decode()
+        walking.page.get_by_role("radiogroup", name="By means of").get_by_text("rules").click()
+        walking.settle()
+        assert walking.export("Recipe").decode() != first
+        assert walking.layers()[0].startswith("Disc −0."), "the same place, reached in another way"
+
+
+class TestSquare:
+    def test_by_mouse_and_keys(self, walking: Studio) -> None:
+        walking.tab("Body")
+        path, timing = walking.slider("Path"), walking.slider("Timing")
+        surface = walking.page.get_by_role("region", name=re.compile("^Paths and timing")).locator(
+            "svg .ground"
+        )
+        x, y = middle(surface)
+        width = surface.bounding_box()["width"]
+        before = walking.pixels()
+        walking.drag((x, y), (width / 8, 0), (width / 8, width / 8))
+        walking.settle()
+        assert float(path.input_value()) == pytest.approx(1.5, abs=0.05)
+        assert float(timing.input_value()) == pytest.approx(0.75, abs=0.05)
+        assert walking.layers() == ["Grid"]
+        assert walking.pixels() != before
+        assert walking.undo_name() == "Undo grid path, timing"
+        path.focus()
+        walking.press("Home")
+        walking.settle()
+        assert walking.layers() == [], "in the middle stands the original, which needs no layer"
+
+    def test_what_is_shown_on_the_way_is_what_comes(self, walking: Studio) -> None:
+        """While the hand is down the page blends the nine; what the server answers looks the same."""
+        walking.tab("Body")
+        walking.slider("Path").focus()
+        walking.settle()  # the nine are here now
+        surface = walking.page.get_by_role("region", name=re.compile("^Paths and timing")).locator(
+            "svg .ground"
+        )
+        x, y = middle(surface)
+        width = surface.bounding_box()["width"]
+        walking.page.evaluate(f"{V}.playback.set({{ time: 0.5 }})")
+        walking.page.route("**/api/edit", lambda route: None)  # as if the server were slow
+        walking.page.mouse.move(x, y)
+        walking.page.mouse.down()
+        walking.page.mouse.move(x + width / 4, y - width / 4)
+        walking.page.wait_for_timeout(50)
+        blended = walking.page.evaluate(f"{V}.jointsOnScreen()")
+        walking.page.unroute("**/api/edit")
+        walking.page.mouse.move(x + width / 4 + 1, y - width / 4)
+        walking.page.mouse.move(x + width / 4, y - width / 4)
+        walking.page.mouse.up()
+        walking.settle()
+        answered = walking.page.evaluate(f"{V}.jointsOnScreen()")
+        assert set(blended) == set(answered)
+        away = [
+            abs(here - there)
+            for name in blended
+            for here, there in zip(blended[name], answered[name], strict=True)
+        ]
+        assert max(away) < 8, "pixels; safe and feet on the floor are all that differs"
+
+
+class TestLayers:
+    @pytest.fixture
+    def three(self, walking: Studio) -> Studio:
+        walking.add("tired")
+        walking.add("Posture")
+        walking.add("Tremor")
+        assert walking.layers() == ["Tired", "Posture", "Tremor"]
+        return walking
+
+    def test_order_by_keys_and_mouse(self, three: Studio) -> None:
+        three.rows.nth(2).get_by_role("button").nth(1).focus()
+        three.press("Alt+ArrowUp")
+        assert three.layers() == ["Tired", "Tremor", "Posture"]
+        three.press("Alt+ArrowUp", "Alt+ArrowUp")
+        assert three.layers() == ["Tremor", "Tired", "Posture"], "it stops at the end"
+        three.press("ArrowDown")
+        assert pressed(three) == ["Tired"]
+        while three.undo_name() == "Undo move tremor":  # quick ones in a row are one step
+            three.press("Control+z")
+        assert three.layers() == ["Tired", "Posture", "Tremor"]
+        three.rows.nth(0).drag_to(three.rows.nth(2), target_position={"x": 60, "y": 28})
+        three.settle()
+        assert three.layers() == ["Posture", "Tremor", "Tired"]
+
+    def test_bypass_solo_duplicate_delete(self, three: Studio) -> None:
+        recipe = lambda: re.findall('edit = "(.+)"', three.export("Recipe").decode())  # noqa: E731
+        three.rows.nth(1).get_by_role("button", name="Bypass Posture").click()
+        three.settle()
+        assert {"posture"} & set(recipe()) == set() or recipe().count(
+            "posture"
+        ) == 1  # tired has one of its own
+        assert recipe()[-2:] == ["tremor", "foot_plant"]
+        three.rows.nth(1).get_by_role("button", name="Switch on Posture").click()
+        three.rows.nth(2).get_by_role("button", name="Solo Tremor").click()
+        three.settle()
+        assert recipe() == ["tremor", "foot_plant"]
+        three.rows.nth(2).get_by_role("button", name="Solo Tremor").click()
+        three.button("Duplicate the layer").click()
+        three.settle()
+        assert three.layers() == ["Tired", "Posture", "Tremor", "Tremor"]
+        assert recipe()[-3:] == ["tremor", "tremor", "foot_plant"]
+        three.button("Delete the layer").click()
+        assert three.layers() == ["Tired", "Posture", "Tremor"]
+        three.button("Delete the layer").click()
+        three.button("Delete the layer").click()
+        three.button("Delete the layer").click()
+        assert three.layers() == []
+
+    def test_arms_only(self, walking: Studio, clips: Path) -> None:
+        """A mood of the arms leaves every number of legs, spine and head as it was written."""
+        walking.mood("excited")
+        walking.page.get_by_role("group", name="Parts").get_by_text("arms", exact=True).click()
+        walking.page.get_by_role("checkbox", name="Feet on the floor").uncheck()
+        walking.settle()
+        before, after = (clips / "walk.bvh").read_bytes(), walking.export()
+        assert before.split(b"MOTION")[0] == after.split(b"MOTION")[0]
+        first, second = (
+            [line.split() for line in data.decode().split("Frame Time:")[1].splitlines()[1:]]
+            for data in (before, after)
+        )
+        changed = {
+            joint
+            for rows in zip(first, second, strict=True)
+            for joint, was, now in zip(columns(before), *rows, strict=True)
+            if was != now
+        }
+        assert changed
+        assert all(re.search("Arm|Shoulder|Hand|Collar|Elbow|Wrist", joint) for joint in changed), changed
+
+    def test_span(self, walking: Studio, clips: Path) -> None:
+        """Outside its stretch of time a layer changes nothing."""
+        walking.mood("excited")
+        walking.page.get_by_role("checkbox", name="Feet on the floor").uncheck()
+        walking.settle()
+        walking.page.get_by_role("combobox", name="Add a layer").select_option(label="Posture")
+        walking.button("Delete the layer").click()
+        walking.tab("Body")
+        head = walking.page.get_by_role("region", name=re.compile("^Posture")).get_by_role(
+            "spinbutton", name="head, typed"
+        )
+        walking.rows.nth(0).get_by_role("button", name="Bypass Excited").click()
+        head.fill("25")
+        head.press("Enter")
+        walking.settle()
+        walking.type("Time: start", "1")
+        walking.type("Time: end", "1.5")
+        assert "1.0–1.5 s" in walking.rows.nth(1).inner_text()
+        before, after = numbers((clips / "walk.bvh").read_bytes()), numbers(walking.export())
+        differs = (before != after).any(axis=1).nonzero()[0] / 30.0
+        assert differs.min() >= 0.99
+        assert differs.max() <= 1.51
+        grip = walking.slider("Posture: end")
+        grip.focus()
+        walking.press("Shift+ArrowRight")
+        walking.settle()
+        assert walking.typed("Time: end").input_value().startswith("1.8")
+        walking.drag(middle(walking.slider("Posture: when")), (-30, 0), (-30, 0))
+        walking.settle()
+        assert float(walking.typed("Time: start").input_value()) < 0.9
+        assert walking.undo_name() == "Undo time of a layer"
+
+    def test_strength_over_time(self, walking: Studio, clips: Path) -> None:
+        """Keys on the timeline: where they say 0 nothing is changed, where they say 1 all of it."""
+        walking.tab("Body")
+        head = walking.page.get_by_role("region", name=re.compile("^Posture")).get_by_role(
+            "spinbutton", name="head, typed"
+        )
+        head.fill("25")
+        head.press("Enter")
+        walking.page.get_by_role("checkbox", name="Feet on the floor").uncheck()
+        walking.settle()
+        whole = numbers(walking.export())
+        timeline = walking.page.get_by_role("region", name="Timeline", exact=True)
+        for time, value in (("0:01", "0"), ("0:02", "1")):
+            moment = walking.page.get_by_label("Time", exact=True).and_(walking.page.get_by_role("textbox"))
+            moment.fill(time)
+            moment.press("Enter")
+            timeline.get_by_role("button", name="Add a key at the playhead").click()
+            walking.type("Strength of the key", value)
+        assert timeline.get_by_role("slider", name=KEY).count() == 2
+        assert "keyed" in walking.rows.first.inner_text()
+        before, after = numbers((clips / "walk.bvh").read_bytes()), numbers(walking.export())
+        frames = slice(0, 31), slice(60, None)
+        assert (after[frames[0]] == before[frames[0]]).all()
+        assert abs(after[frames[1]] - whole[frames[1]]).max() < 1e-3
+        assert not (after[40:50] == before[40:50]).all()
+        key = timeline.get_by_role("slider", name="Key 2 of 2")
+        walking.drag(middle(key), (0, 8), (0, 8))
+        walking.settle()
+        assert walking.undo_name() == "Undo strength over time"
+        assert float(key.get_attribute("aria-valuenow")) < 0.9
+        walking.press("Control+z")
+        assert float(key.get_attribute("aria-valuenow")) == 1
+
+
+def pressed(studio: Studio) -> list[str]:
+    """Return the chosen layers."""
+    return [
+        row.get_by_role("button").nth(1).inner_text().split("\n")[0]
+        for row in studio.rows.all()
+        if row.get_by_role("button").nth(1).get_attribute("aria-pressed") == "true"
+    ]

@@ -1,0 +1,199 @@
+"""What is given away: the same bytes by every way out, and the same motion when it comes in again."""
+
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from mien import edit, load
+from mien.formats import bvh
+from mien.kinematics.fk import world
+
+from .driving import Studio, V
+
+
+def copied(studio: Studio, what: str) -> str:
+    """Press a button that copies, and return what is in the clipboard then."""
+    studio.page.context.grant_permissions(["clipboard-read", "clipboard-write"], origin=studio.server.base)
+    studio.button("Export").click()
+    dialog = studio.page.get_by_role("dialog")
+    dialog.get_by_role("button", name=what, exact=True).click()
+    dialog.get_by_role("status").get_by_text("was copied").wait_for()
+    text = str(studio.page.evaluate("navigator.clipboard.readText()"))
+    studio.close_dialog()
+    return text
+
+
+def run(command: list[str], folder: Path, text: str | None = None) -> None:
+    """Run something as a person would who has mien installed."""
+    tools = folder / "bin"
+    tools.mkdir(exist_ok=True)
+    script = tools / "mien"
+    script.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m mien "$@"\n', encoding="utf-8")
+    script.chmod(0o755)
+    where = {**os.environ, "PATH": f"{tools}{os.pathsep}{os.environ['PATH']}"}
+    done = subprocess.run(command, cwd=folder, input=text, text=True, capture_output=True, env=where)
+    assert done.returncode == 0, done.stderr
+
+
+def do_much(studio: Studio) -> None:
+    """Two layers with strength, parts and a stretch of time."""
+    studio.mood("tired")
+    studio.type("Strength, typed", "0.7")
+    studio.add("Posture")
+    studio.tab("Body")
+    studio.page.get_by_role("region", name=re.compile("^Posture")).get_by_role(
+        "spinbutton", name="head, typed"
+    ).fill("20")
+    studio.press("Enter")
+    studio.settle()
+    studio.type("Time: start", "0.5")
+    studio.type("Overall, typed", "0.9")
+
+
+def test_the_input_at_strength_0(walking: Studio, clips: Path) -> None:
+    source = (clips / "walk.bvh").read_bytes()
+    assert walking.export() == source, "nothing done yet"
+    walking.mood("sad")
+    assert walking.export() != source
+    walking.type("Overall, typed", "0")
+    assert walking.export() == source
+    walking.type("Overall, typed", "1")
+    walking.type("Strength, typed", "0")
+    assert walking.export() == source
+
+
+def test_it_is_what_python_makes(walking: Studio, clips: Path) -> None:
+    walking.mood("sad")
+    assert walking.export() == bvh.render(edit(load(clips / "walk.bvh"), "sad"))
+
+
+def test_in_again(walking: Studio, clips: Path, tmp_path: Path) -> None:
+    """The exported file, opened again, stands as the edit stood: on the screen and in numbers."""
+    walking.mood("excited")
+    walking.page.evaluate(f"{V}.playback.set({{ time: 0.9 }})")
+    walking.page.get_by_text("Edited", exact=True).click()
+    before = walking.page.evaluate(f"{V}.jointsOnScreen()")
+    file = tmp_path / "again.bvh"
+    file.write_bytes(walking.export())
+    walking.open(file)
+    walking.page.evaluate(f"{V}.playback.set({{ time: 0.9 }})")
+    after = walking.page.evaluate(f"{V}.jointsOnScreen()")
+    shape = [np.array([places[n] for n in before]) - places["Hips"] for places in (before, after)]
+    assert np.abs(shape[0]).max() > 100
+    size = [np.ptp(one[:, 1]) for one in shape]
+    np.testing.assert_allclose(shape[0] / size[0], shape[1] / size[1], atol=0.02)
+    assert walking.export() == file.read_bytes(), "and it goes out as it came in"
+    expected = edit(load(clips / "walk.bvh"), "excited")
+    np.testing.assert_allclose(world(load(file))[1], world(expected)[1], atol=1e-3)
+
+
+@pytest.mark.parametrize("much", [False, True])
+def test_copied_they_make_the_same_bytes(walking: Studio, clips: Path, tmp_path: Path, much: bool) -> None:
+    if much:
+        do_much(walking)
+    else:
+        walking.mood("sad")
+        walking.page.get_by_role("group", name="Parts").get_by_text("arms", exact=True).click()
+        walking.settle()
+    (tmp_path / "walk.bvh").write_bytes((clips / "walk.bvh").read_bytes())
+    exported, made = walking.export(), tmp_path / "walk_edited.bvh"
+    assert exported != (clips / "walk.bvh").read_bytes()
+    command = copied(walking, "Copy as command")
+    assert command.startswith("cat > " if much else "mien edit walk.bvh --emotion sad --parts arms")
+    run(["sh", "-eu"], tmp_path, command)
+    assert made.read_bytes() == exported
+    made.unlink()
+    run([sys.executable, "-"], tmp_path, copied(walking, "Copy as Python"))
+    assert made.read_bytes() == exported
+
+
+def test_every_kind_of_file(walking: Studio, clips: Path, tmp_path: Path) -> None:
+    do_much(walking)
+    exported = walking.export()
+    (tmp_path / "walk.bvh").write_bytes((clips / "walk.bvh").read_bytes())
+    (tmp_path / "recipe.toml").write_bytes(walking.export("Recipe"))
+    tomllib.loads((tmp_path / "recipe.toml").read_text(encoding="utf-8"))
+    run(["mien", "edit", "walk.bvh", "--recipe", "recipe.toml", "-o", "out.bvh"], tmp_path)
+    assert (tmp_path / "out.bvh").read_bytes() == exported
+    with Image.open(BytesIO(walking.export("Picture"))) as picture:
+        assert picture.format == "PNG"
+        assert picture.width == 1600
+    page = walking.export("Page (HTML)").decode()
+    assert page.startswith("<!doctype html>")
+    assert "walk" in page
+    assert b"mien_project" in walking.export("Project")
+    with Image.open(BytesIO(walking.export("Film (GIF)"))) as film:
+        assert film.n_frames > 5
+
+
+def test_a_picture_of_the_viewport(walking: Studio) -> None:
+    walking.button("File").click()
+    with walking.page.expect_download() as given:
+        walking.page.get_by_role("menuitem", name="Save a picture of the viewport").click()
+    with Image.open(given.value.path()) as picture:
+        assert len(picture.convert("RGB").getcolors(10**6)) > 500
+
+
+class TestChecks:
+    @pytest.fixture
+    def broken(self, walking: Studio) -> Studio:
+        """A walk bent until a check fails, with nothing that would prevent it."""
+        walking.page.get_by_role("checkbox", name="Safe", exact=True).uncheck()
+        walking.page.get_by_role("checkbox", name="Feet on the floor").uncheck()
+        walking.add("Path length")
+        walking.tab("Body")
+        section = walking.page.get_by_role("region", name=re.compile("^Path length"))
+        section.get_by_role("button", name=re.compile("^Path length")).click()
+        field = section.get_by_role("spinbutton", name="mid, typed")
+        field.fill("0.3")
+        field.press("Enter")
+        walking.settle()
+        walking.tab("Checks")
+        return walking
+
+    def test_a_failing_check_is_shown_and_led_to(self, broken: Studio) -> None:
+        tab = broken.page.get_by_role("tab", name=re.compile("^Checks"))
+        assert re.search(r"[1-9]\d* failing", tab.inner_text())
+        table = broken.page.get_by_role("table")
+        row = table.get_by_role("row").filter(has_text="fails").filter(has=broken.page.get_by_role("button"))
+        label = row.first.get_by_role("button").inner_text()
+        cells = row.first.get_by_role("cell").all_inner_texts()
+        assert float(cells[1]) > float(re.findall(r"[\d.]+", cells[2])[0]), "more than is allowed"
+        assert broken.playback("time") == 0
+        row.first.get_by_role("button").click()
+        there = broken.playback("time")
+        mark = broken.page.get_by_role("region", name="Timeline", exact=True).get_by_role(
+            "button", name=re.compile(f"^{re.escape(label)}: ")
+        )
+        worst = {re.search(r"worst at ([\d:.]+)", one.get_attribute("aria-label"))[1] for one in mark.all()}
+        assert there > 0
+        assert broken.page.get_by_role("textbox", name="Time", exact=True).input_value() in worst
+        broken.press("Home")
+        mark.last.click()
+        assert broken.playback("time") > 0
+
+    def test_what_fails_is_red(self, broken: Studio) -> None:
+        table = broken.page.get_by_role("table")
+        row = table.get_by_role("row").filter(has_text="fails").filter(has=broken.page.get_by_role("button"))
+        row.first.get_by_role("button").click()
+        red = broken.pixels()
+        broken.page.evaluate(f"{V}.setMarks([])")
+        assert broken.pixels() != red
+
+    def test_make_safe_mends(self, broken: Studio) -> None:
+        broken.button("Make safe").click()
+        broken.settle()
+        assert broken.page.get_by_role("tab", name="Checks all pass").is_visible()
+        assert "Everything that is checked is right." in broken.page.get_by_role("tabpanel").inner_text()
+        assert broken.page.get_by_role("checkbox", name="Safe", exact=True).is_checked()
+        broken.press("Control+z")
+        broken.settle()
+        assert re.search("failing", broken.page.get_by_role("tab", name=re.compile("^Checks")).inner_text())

@@ -1,0 +1,164 @@
+"""How clips come in: chooser, drop, sample, command line, project; and what is said of those that do not."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from mien.formats import bvh
+from mien.motion import Motion
+
+from .driving import Server, Studio
+
+Visit = Callable[..., Studio]
+
+
+def open_clips(studio: Studio) -> list[str]:
+    """Return the names of the clips in the list, the shown one first."""
+    rows = studio.part("Clips 1").or_(studio.page.get_by_role("region", name=re.compile("^Clips")))
+    found = []
+    for row in rows.get_by_role("listitem").all():
+        button = row.get_by_role("button").first
+        name = button.inner_text().split("\n")[0]
+        found.insert(0 if button.get_attribute("aria-current") == "true" else len(found), name)
+    return found
+
+
+def test_empty(studio: Studio) -> None:
+    steps = studio.page.get_by_role("main").get_by_role("listitem").all_inner_texts()
+    assert [re.findall("[A-Z][a-z ]+", step)[0] for step in steps] == [
+        "Open a clip", "Give it a mood", "Compare and export",
+    ]  # fmt: skip
+    assert studio.button("Export").is_disabled()
+    assert studio.moods.get_by_role("button", name="sad", exact=True).is_disabled()
+    assert studio.page.title() == "mien studio"
+    assert "token" not in studio.page.url
+    assert studio.colours() > 100, "the floor is drawn"
+
+
+def test_by_the_chooser(studio: Studio, clips: Path) -> None:
+    studio.open(clips / "walk.bvh", clips / "wave.bvh")
+    assert open_clips(studio) == ["wave.bvh", "walk.bvh"]
+    assert studio.page.title() == "wave.bvh – mien studio"
+    assert studio.colours() > 800
+    assert studio.playback("duration") == pytest.approx(2.5, abs=0.05)
+    assert not studio.page.get_by_role("heading", name="Change the mood of a motion").is_visible()
+
+
+def test_by_dropping(studio: Studio, clips: Path) -> None:
+    studio.drop(clips / "wave.bvh")
+    assert open_clips(studio) == ["wave.bvh"]
+    assert studio.colours() > 800
+
+
+def test_a_sample(studio: Studio) -> None:
+    studio.page.get_by_role("main").get_by_role("button", name=re.compile("^wave")).click()
+    studio.settle()
+    assert open_clips(studio) == ["wave.bvh"]
+    assert studio.colours() > 800
+
+
+def test_the_same_clip_twice_is_one(studio: Studio, clips: Path) -> None:
+    studio.open(clips / "walk.bvh")
+    studio.mood("sad")
+    studio.open(clips / "walk.bvh")
+    assert open_clips(studio) == ["walk.bvh"]
+    assert studio.layers() == ["Sad"]
+
+
+def test_on_the_command_line(built: None, visit: Visit, clips: Path, tmp_path: Path) -> None:
+    broken = tmp_path / "broken.bvh"
+    broken.write_text("HIERARCHY\nROOT", encoding="utf-8")
+    server = Server(tmp_path / "studio", clips / "wave.bvh", broken, clips / "walk.bvh")
+    try:
+        assert open_clips(visit(server)) == ["wave.bvh", "walk.bvh"]
+    finally:
+        said = server.stop()
+    assert "broken.bvh" in said
+    assert "Traceback" not in said
+
+
+def test_a_broken_file_is_said_and_nothing_lost(studio: Studio, clips: Path, tmp_path: Path) -> None:
+    studio.expected += ("status of 422",)
+    studio.open(clips / "walk.bvh")
+    studio.mood("sad")
+    broken, empty = tmp_path / "broken.bvh", tmp_path / "empty.bvh"
+    cut = (clips / "wave.bvh").read_text(encoding="utf-8").rsplit("\n", 3)[0] + "\n1.0 2.0"
+    broken.write_text(cut, encoding="utf-8")
+    empty.write_bytes(b"")
+    studio.open(broken, empty)
+    alerts = studio.page.get_by_role("alert").all_inner_texts()
+    assert len(alerts) == 2
+    assert re.search(r"broken\.bvh.*line \d+", alerts[0]), "it says which file, and where"
+    assert "empty.bvh is empty" in alerts[1]
+    assert (open_clips(studio), studio.layers()) == (["walk.bvh"], ["Sad"])
+    studio.button("Close the message").first.click()
+    studio.button("Close the message").first.click()
+    assert studio.page.get_by_role("alert").count() == 0
+
+
+def test_what_has_no_body_is_looked_at(studio: Studio, rope: Motion, tmp_path: Path) -> None:
+    file = tmp_path / "rope.bvh"
+    file.write_bytes(bvh.render(rope))
+    studio.open(file)
+    assert "can be looked at, not edited" in studio.messages()
+    assert studio.colours() > 100
+    assert studio.moods.get_by_role("button", name="sad", exact=True).is_disabled()
+    assert studio.slider("Valence").is_disabled()
+
+
+def test_closed_and_opened_again(studio: Studio, clips: Path) -> None:
+    studio.open(clips / "walk.bvh", clips / "wave.bvh")
+    studio.mood("sad")
+    studio.button("Close wave.bvh").click()
+    studio.settle()
+    assert open_clips(studio) == ["walk.bvh"]
+    studio.part("Messages").get_by_role("button", name="Open again").click()
+    studio.settle()
+    assert open_clips(studio) == ["wave.bvh", "walk.bvh"]
+    assert studio.layers() == ["Sad"], "its layers have come back with it"
+
+
+def test_a_project_as_a_file(
+    studio: Studio, visit: Visit, server: Server, clips: Path, tmp_path: Path
+) -> None:
+    studio.open(clips / "walk.bvh")
+    studio.mood("tired")
+    studio.type("Overall, typed", "0.8")
+    with studio.page.expect_download() as given:
+        studio.press("Control+s")
+    file = tmp_path / given.value.suggested_filename
+    file.write_bytes(Path(given.value.path()).read_bytes())
+    assert file.name == "walk.mien.json"
+    project = json.loads(file.read_text(encoding="utf-8"))
+    assert [clip["name"] for clip in project["clips"]] == ["walk.bvh"]
+    studio.page.close()
+    server.forget()
+
+    other = visit(server)
+    other.open(file)
+    assert "The project also uses walk.bvh" in other.messages()
+    other.open(clips / "walk.bvh")
+    assert other.layers() == ["Tired"]
+    assert other.typed("Overall, typed").input_value() == "0.80"
+    other.expected += ("status of 422",)
+    file.write_text('{"clips": 3}', encoding="utf-8")
+    other.open(file)
+    assert "no project file of mien studio" in other.messages()
+    assert other.layers() == ["Tired"]
+
+
+def test_pictures_of_moods(server: Server, visit: Visit) -> None:
+    studio = visit(server, pictures=True)
+    image = studio.moods.get_by_role("button", name="afraid", exact=True).locator("img")
+    for _ in range(400):
+        if image.evaluate("one => one.complete && one.naturalWidth") > 1:
+            break
+        studio.page.wait_for_timeout(50)
+    size = image.evaluate("one => [one.naturalWidth, one.naturalHeight]")
+    made = [Image.open(path) for path in (server.folder / "pictures").rglob("*.png")]
+    assert size in [list(picture.size) for picture in made]
+    assert all(len(picture.convert("RGB").getcolors(100_000)) > 50 for picture in made)

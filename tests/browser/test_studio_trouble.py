@@ -1,0 +1,172 @@
+"""What may go wrong around the page: said clearly, and nothing is lost."""
+
+import os
+import re
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from .driving import Server, Studio
+
+Visit = Callable[..., Studio]
+LOST = ("ERR_CONNECTION_REFUSED", "ERR_CONNECTION_RESET", "ERR_EMPTY_RESPONSE", "ERR_SOCKET")
+
+
+@pytest.fixture
+def own(browser: Any, built: None, tmp_path: Path) -> Iterator[Server]:
+    """A server that a test may kill."""
+    server = Server(tmp_path / "studio")
+    yield server
+    server.stop()
+
+
+def test_killed_in_mid_edit(visit: Visit, own: Server, clips: Path) -> None:
+    studio = visit(own)
+    studio.expected += LOST
+    studio.open(clips / "walk.bvh")
+    studio.mood("sad")
+    alone = studio.pixels()
+    own.kill()
+    studio.type_only("Overall, typed", "0.7")
+    alert = studio.page.get_by_role("alert")
+    alert.get_by_text("The connection to mien is lost; your work is kept.").wait_for()
+    studio.add_only("Posture")
+    assert studio.layers() == ["Sad", "Posture"]
+    assert studio.colours() > 500, "the figure stays"
+    own.start()
+    alert.wait_for(state="hidden")
+    studio.settle()
+    assert "saved" in studio.page.get_by_role("banner").inner_text()
+    assert (studio.layers(), studio.typed("Overall, typed").input_value()) == (["Sad", "Posture"], "0.70")
+    assert studio.pixels() != alone
+    done = studio.export()
+    studio.page.reload()
+    studio.settle()
+    assert (studio.layers(), studio.typed("Overall, typed").input_value()) == (["Sad", "Posture"], "0.70")
+    assert studio.export() == done
+
+
+def test_gone_and_the_page_too(visit: Visit, own: Server, clips: Path) -> None:
+    """The server dies, work goes on, the tab is closed; later both come back."""
+    studio = visit(own)
+    studio.expected += LOST
+    studio.open(clips / "walk.bvh")
+    studio.mood("sad")
+    own.kill()
+    studio.add_only("Posture")
+    studio.page.get_by_role("alert").wait_for()
+    context = studio.page.context
+    studio.page.close()
+    own.start()
+    again = visit(own, context)
+    assert again.layers() == ["Sad", "Posture"]
+
+
+def test_started_again_with_another_key(visit: Visit, own: Server, clips: Path) -> None:
+    studio = visit(own)
+    studio.expected += (*LOST, "status of 401")
+    studio.open(clips / "walk.bvh")
+    studio.mood("sad")
+    own.kill()
+    (own.folder / "token").unlink()
+    own.start()
+    studio.type_only("Overall, typed", "0.5")
+    alert = studio.page.get_by_role("alert").filter(has_text="another key")
+    alert.wait_for()
+    assert "Open the address that mien studio printed" in " ".join(alert.inner_text().split())
+    studio.go()
+    assert (studio.layers(), studio.typed("Overall, typed").input_value()) == (["Sad"], "0.50")
+
+
+def test_a_page_without_the_key(visit: Visit, server: Server, browser: Any) -> None:
+    context = browser.new_context()
+    page = context.new_page()
+    page.goto(server.base)
+    page.get_by_text("open the address that mien studio printed").wait_for()
+    context.close()
+
+
+def test_a_second_tab(walking: Studio, visit: Visit) -> None:
+    walking.mood("sad")
+    other = visit(walking.server, walking.page.context)
+    said = other.page.get_by_role("alert").filter(has_text="open in another tab")
+    said.wait_for()
+    assert other.layers() == ["Sad"]
+    other.mood("tired")
+    walking.page.reload()
+    walking.settle()
+    assert walking.layers() == ["Sad"], "what the second tab does is not kept"
+    said.get_by_role("button", name="Go on here instead").click()
+    walking.page.get_by_role("alert").filter(has_text="open in another tab").wait_for()
+    other.mood("proud")
+    other.page.reload()
+    other.settle()
+    assert other.layers() == ["Proud"], "now this one keeps the work"
+
+
+@pytest.fixture
+def small(tmp_path: Path) -> Iterator[Path]:
+    """A disk of 400 kB."""
+    place = tmp_path / "disk"
+    place.mkdir()
+    made = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=400k", "tmpfs", str(place)], capture_output=True, text=True
+    )
+    if made.returncode:
+        pytest.skip(f"no small disk can be made here ({made.stderr.strip()})")
+    yield place
+    subprocess.run(["umount", "-l", str(place)], check=True)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs mount")
+def test_a_full_disk(visit: Visit, small: Path, clips: Path) -> None:
+    """A clip that does not fit is said not to, and neither is the work; what was kept stays."""
+    server = Server(small / "studio")
+    try:
+        studio = visit(server)
+        studio.expected += ("status of 500", "status of 422", "status of 507")
+        studio.open(clips / "walk.bvh")
+        studio.mood("sad")
+        free = os.statvfs(small)
+        (small / "full").write_bytes(b"x" * (free.f_bavail * free.f_frsize))
+        studio.open(clips / "wave.bvh")
+        alert = studio.page.get_by_role("alert").first
+        assert re.search(r"wave\.bvh.*(full|No space left)", alert.inner_text())
+        studio.mood("tired")
+        assert studio.layers() == ["Tired"]
+        assert "not saved" in studio.page.get_by_role("banner").inner_text()
+        assert any("Not kept" in text for text in studio.page.get_by_role("alert").all_inner_texts())
+        (small / "full").unlink()
+        studio.mood("proud")
+        assert "not saved" not in studio.page.get_by_role("banner").inner_text()
+        server.kill()
+        server.start()
+        studio.go()
+        assert studio.layers() == ["Proud"]
+    finally:
+        server.stop()
+
+
+def test_a_slow_answer_is_overtaken(walking: Studio) -> None:
+    """While an answer is on its way the page goes on; the last one asked is the one that is shown."""
+    walking.mood("sad")
+    held = []
+    walking.page.route("**/api/edit", held.append)
+    walking.moods.get_by_role("button", name="excited", exact=True).click()
+    walking.page.get_by_text("Working it out…").wait_for()
+    walking.press("Space")
+    walking.until("window.__viewer.playback.time > 0.1")
+    walking.press("k", "Home")
+    walking.moods.get_by_role("button", name="tired", exact=True).click()
+    walking.page.unroute("**/api/edit")
+    for route in held:
+        route.continue_()
+    walking.settle()
+    shown = walking.pixels()
+    walking.press("Control+z", "Control+Shift+z")
+    walking.settle()
+    assert walking.layers() == ["Tired"]
+    assert walking.pixels() == shown

@@ -1,0 +1,171 @@
+"""How original and edit are compared, what is drawn, playing, and that nothing is lost by a reload."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from .driving import Server, Studio, V, middle
+
+Visit = Callable[..., Studio]
+
+
+@pytest.fixture
+def edited(walking: Studio) -> Studio:
+    walking.mood("excited")
+    walking.page.evaluate(f"{V}.playback.set({{ time: 0.9 }})")
+    return walking
+
+
+def test_every_way_to_compare_is_another_picture(edited: Studio) -> None:
+    pictures = {}
+    for mode in ("Edited", "Ghost", "Side by side", "Wipe"):
+        edited.page.get_by_role("radiogroup", name="Compare").get_by_text(mode, exact=True).click()
+        assert edited.page.get_by_role("radio", name=mode).is_checked()
+        assert edited.colours() > 500, mode
+        pictures[mode] = edited.pixels()
+    assert len(set(pictures.values())) == 4
+    edited.press("v")
+    assert edited.page.get_by_role("radio", name="Edited").is_checked()
+    assert edited.pixels() == pictures["Edited"]
+    edited.page.keyboard.down("`")
+    assert edited.page.evaluate(f"{V}.mode") == "original"
+    assert edited.pixels() not in pictures.values()
+    edited.page.keyboard.up("`")
+    assert edited.pixels() == pictures["Edited"]
+
+
+def test_every_switch_of_the_view_is_seen(edited: Studio) -> None:
+    for name in ("Trails", "Feet", "Grid", "One colour"):
+        switch = edited.page.get_by_role("toolbar", name="View").get_by_role("button", name=name, exact=True)
+        was, before = switch.get_attribute("aria-pressed"), edited.pixels()
+        switch.click()
+        assert switch.get_attribute("aria-pressed") != was
+        assert edited.pixels() != before, name
+        switch.click()
+        assert edited.pixels() == before, name
+
+
+def test_dark_and_light(edited: Studio) -> None:
+    light = edited.pixels()
+    edited.button("Dark colours").click()
+    dark = edited.pixels()
+    assert dark != light
+    edited.page.reload()
+    edited.settle()
+    assert edited.button("Light colours").is_visible(), "it is kept"
+    sheet = edited.page.screenshot()
+    edited.button("Light colours").click()
+    bright = edited.page.screenshot()
+    assert level(sheet) < 90
+    assert level(bright) > 170
+
+
+def level(picture: bytes) -> float:
+    """Return how bright a picture is, from 0 to 255."""
+    from io import BytesIO
+
+    with Image.open(BytesIO(picture)) as opened:
+        grey = opened.convert("L").resize((1, 1))
+        return float(grey.getpixel((0, 0)))
+
+
+def test_playing(walking: Studio) -> None:
+    assert not walking.playback("playing"), "who wants less motion is asked first"
+    walking.press("Space")
+    walking.until(f"{V}.playback.time > 0.2")
+    walking.press("k")
+    assert not walking.playback("playing")
+    walking.press("Home", "ArrowRight", "ArrowRight")
+    assert walking.playback("frame") == 2
+    walking.press("ArrowUp")
+    first = walking.playback("time")
+    assert first > 2 / 30
+    walking.press("i", "Shift+ArrowRight", "o")
+    assert walking.playback("range") == [pytest.approx(first), pytest.approx(first + 10 / 30)]
+    walking.press("+")
+    assert walking.playback("speed") == 2
+    walking.press("l")
+    walking.until(f"{V}.playback.playing")
+    walking.press("Space")
+
+
+def test_a_joint_is_picked_and_drawn(edited: Studio) -> None:
+    view = edited.page.get_by_role("img", name=re.compile("^3D view"))
+    box = view.bounding_box()
+    x, y = edited.page.evaluate(f"{V}.jointsOnScreen()")["Head"]
+    edited.page.mouse.dblclick(box["x"] + x, box["y"] + y)
+    edited.settle()
+    curves = edited.page.get_by_role("group", name="Curves")
+    assert curves.get_by_role("checkbox", name="joint:Head").is_checked()
+    assert "joint:Head" in edited.page.get_by_role("region", name="Timeline", exact=True).inner_text()
+    curves.get_by_text("valence").click()
+    edited.settle()
+    assert re.search("valence\n", edited.page.get_by_role("region", name="Timeline", exact=True).inner_text())
+
+
+def test_a_reload_returns_to_the_same(edited: Studio) -> None:
+    edited.page.get_by_text("Side by side", exact=True).click()
+    edited.button("Names").click()
+    edited.page.get_by_role("group", name="Curves").get_by_text("valence").click()
+    edited.type("Overall, typed", "0.6")
+    edited.page.evaluate(f"{V}.playback.set({{ time: 0 }})")
+    edited.settle()
+    state = lambda: edited.page.locator("body").aria_snapshot()  # noqa: E731
+    before, picture = state(), edited.pixels()
+    edited.page.reload()
+    edited.settle()
+    after = state()
+    # What can be undone is not kept: nothing else may differ.
+    fresh = lambda text: re.sub(r'- button "(Undo|Redo)[^\n]*', "", text)  # noqa: E731
+    assert fresh(after) == fresh(before)
+    assert edited.pixels() == picture
+
+
+def test_changed_and_reloaded_at_once(walking: Studio) -> None:
+    """What was done in the last moment before the page went is kept, too."""
+    walking.moods.get_by_role("button", name="sad", exact=True).click()
+    walking.page.reload()
+    walking.settle()
+    assert walking.layers() == ["Sad"]
+
+
+def test_two_clips_have_layers_of_their_own(walking: Studio, clips: Path) -> None:
+    walking.mood("sad")
+    walking.open(clips / "wave.bvh")
+    assert walking.layers() == []
+    walking.mood("proud")
+    walking.button(re.compile(r"^walk\.bvh .*1 layer")).click()
+    walking.settle()
+    assert walking.layers() == ["Sad"]
+    assert walking.undo_name() == "Undo sad"
+
+
+def test_columns_can_be_made_higher(walking: Studio) -> None:
+    walking.add("Posture")
+    for name in ("Height of the timeline", "Height of the layers"):
+        line = walking.page.get_by_role("separator", name=name)
+        place = lambda line=line: (line.bounding_box()["y"], float(line.get_attribute("aria-valuenow")))  # noqa: E731
+        before = place()
+        line.focus()
+        walking.press("ArrowUp", "ArrowUp")
+        stepped = place()
+        walking.drag(middle(line), (0, -10), (0, -30))
+        dragged = place()
+        assert [one - two for one, two in zip(before, dragged, strict=True)] > [50, 8]
+        assert dragged[0] < stepped[0] < before[0], name
+        line.dblclick()
+        assert place() == before
+    assert walking.colours() > 500
+
+
+def test_a_small_window(visit: Visit, server: Server, clips: Path) -> None:
+    studio = visit(server, viewport={"width": 900, "height": 600})
+    studio.open(clips / "walk.bvh")
+    studio.mood("sad")
+    assert studio.colours() > 300
+    wide = studio.page.evaluate("document.documentElement.scrollWidth")
+    assert wide <= 900, "nothing stands outside"
+    assert studio.button("Export").bounding_box()["x"] + 40 < 900
