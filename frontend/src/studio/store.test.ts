@@ -19,7 +19,7 @@ const motion = { head: { frames: 11, frame_time: 0.1, shape: {}, joints: [] } } 
 function made(kept: Project | null = null, shelf = new Map<string, string>()) {
   const edits: EditRequest[] = [];
   const api = {
-    hello: vi.fn().mockResolvedValue({ clips } as unknown as Hello),
+    hello: vi.fn().mockResolvedValue({ clips, given: [] } as unknown as Hello),
     project: () => (kept ? Promise.resolve(kept) : Promise.resolve(null)),
     keepProject: vi.fn().mockResolvedValue(undefined),
     motion: vi.fn().mockResolvedValue(motion),
