@@ -41,6 +41,8 @@ export class Api {
   readonly #fetch: typeof fetch;
   /** Called where the server cannot be reached. */
   onLost: () => void = () => undefined;
+  /** Called where the server does not know this page's key. */
+  onShut: () => void = () => undefined;
 
   constructor(token: string, ask: typeof fetch = (...given) => fetch(...given)) {
     this.#token = token;
@@ -129,7 +131,9 @@ export class Api {
       throw new Failed("lost", problem instanceof Failed ? problem.message : LOST);
     }
     if (answer.ok) return answer;
-    throw await refusal(answer);
+    const failed = await refusal(answer);
+    if (failed.kind === "shut") this.onShut();
+    throw failed;
   }
 }
 

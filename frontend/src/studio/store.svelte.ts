@@ -72,6 +72,10 @@ export class Studio {
       (reach, hello) => void this.#reached(reach, hello),
     );
     api.onLost = () => void this.#connection.lost();
+    api.onShut = () => {
+      // A page that never was let in says so itself.
+      if (this.hello) this.reach = "shut";
+    };
   }
 
   /** Whether there is a clip with a body that can be changed. */
