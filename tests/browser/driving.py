@@ -250,7 +250,8 @@ class Studio:
         end, quiet = time.monotonic() + seconds, 0
         while quiet < 3:
             busy = self.page.evaluate(
-                "window.__asked > 0 || /Opening…|Working it out…|saving…/.test(document.body.innerText)"
+                "window.__asked > 0"
+                " || /(Opening|Working it out|Waiting for mien|saving)…/.test(document.body.innerText)"
             )
             quiet = 0 if busy else quiet + 1
             assert time.monotonic() < end, f"it never settled: {self.page.locator('body').inner_text()}"

@@ -130,7 +130,12 @@ def test_every_kind_of_file(walking: Studio, clips: Path, tmp_path: Path) -> Non
     assert page.startswith("<!doctype html>")
     assert "walk" in page
     assert b"mien_project" in walking.export("Project")
-    with Image.open(BytesIO(walking.export("Film (GIF)"))) as film:
+    walking.button("Export").click()
+    walking.page.get_by_role("radio", name="Film (GIF)").check()
+    walking.type("Height", "120")
+    with walking.page.expect_download(timeout=60_000) as given:
+        walking.page.get_by_role("dialog").get_by_role("button", name="Export", exact=True).click()
+    with Image.open(given.value.path()) as film:
         assert film.n_frames > 5
 
 
