@@ -41,7 +41,7 @@ async function opened(
     const there = studio.clips.some(({ id }) => id === clip.id);
     studio.clips = there ? studio.clips : [...studio.clips, clip];
     await studio.select(clip.id);
-    if (clip.problem) studio.notices.note(`${clip.name} can be looked at, not edited: ${clip.problem}`);
+    if (clip.problem) studio.notices.note(`${clip.name} can be looked at, not edited: the panel says why.`);
     return clip;
   } catch (problem) {
     studio.notices.error(withName(name, asSentence(problem)));

@@ -34,7 +34,7 @@ export const TOGGLES: readonly { toggle: Toggle; label: string; hint: string }[]
   },
   { toggle: "follow", label: "Follow", hint: "the camera goes with the figure" },
   { toggle: "trails", label: "Trails", hint: "where hands, feet and head went" },
-  { toggle: "footprints", label: "Feet", hint: "where feet stand" },
+  { toggle: "footprints", label: "Feet", hint: "where feet stand; red where one slides" },
   { toggle: "names", label: "Names", hint: "names of joints" },
   { toggle: "grid", label: "Grid", hint: "a grid of metres on the floor" },
   { toggle: "neutral", label: "One colour", hint: "left and right without colours of their own" },
