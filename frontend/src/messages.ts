@@ -130,7 +130,7 @@ export interface Word {
   arousal: number;
 }
 
-/** What the page needs to begin. */
+/** What the page needs to begin; ``given`` are the ids of the clips named when the studio was started. */
 export interface Hello {
   version: string;
   samples: string[];
@@ -140,6 +140,7 @@ export interface Hello {
   parts: string[];
   roles: string[];
   clips: ClipInfo[];
+  given: string[];
   largest_upload: number;
 }
 
@@ -163,6 +164,7 @@ export interface ReadingInfo {
   labels: [string, number][];
   why: Why[];
   against: string;
+  placed: number;
 }
 
 /** The clip by itself, what was asked for, and what the edit reached. */

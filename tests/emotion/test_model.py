@@ -197,3 +197,8 @@ def test_any_change_is_refused_or_works(place: Path, text: str, path: tuple[Any,
         found = mien.read(motion, model=model)
         assert np.isfinite([*found.place, *found.labels.values()]).all()
         assert json.dumps(found.as_data(), allow_nan=False)
+
+
+def test_a_model_is_told_in_one_line() -> None:
+    assert len(repr(shipped_model())) < 250
+    assert "happy" in repr(shipped_model())

@@ -13,6 +13,8 @@ import { freshView, isOn, readView, type Toggle, type View } from "./view";
 
 /** Milliseconds in which a second change of the same kind belongs to the first. */
 const QUICK = 600;
+/** Says in the tab's own storage that the page was loaded before. */
+const BEGUN = "mien: begun";
 
 type StackHistory = histories.History<Stack>;
 
@@ -93,22 +95,26 @@ export class Studio {
     );
     this.clips = this.hello.clips;
     const there = await this.api.project().catch(() => null);
-    await this.take(newer(there, keptHere(this.shelf)), { selectGiven: true });
+    await this.take(newer(there, keptHere(this.shelf)), { begin: true, named: this.#named() });
   }
 
   /** Take over a project: the stacks of the clips that are open, the view, and what was shown. */
-  async take(project: Project | null, { selectGiven = false } = {}): Promise<void> {
+  async take(project: Project | null, { begin = false, named = "" } = {}): Promise<void> {
     const given = project?.clips ?? [];
     const known = Object.fromEntries(given.map((clip) => [clip.id, histories.begun(clip.stack)]));
-    this.#histories = selectGiven ? known : { ...this.#histories, ...known };
+    this.#histories = begin ? known : { ...this.#histories, ...known };
     if (project) this.view = readView(project.view);
     const open = (id: string | undefined) => this.clips.some((clip) => clip.id === id);
-    // A clip that the project does not know was just given on the command line: that is what is wanted.
-    const fresh = selectGiven
-      ? this.clips.find((clip) => !given.some(({ id }) => id === clip.id))
-      : undefined;
-    const wanted = fresh?.id ?? (open(project?.current) ? project!.current : this.clips[0]?.id);
+    const wanted = named || (open(project?.current) ? project!.current : this.clips[0]?.id);
     await this.select(wanted ?? "");
+  }
+
+  /** The clip that was named on the command line, the first time that this tab loads the page. */
+  #named(): string {
+    const tab = globalThis.sessionStorage as Storage | undefined;
+    if (tab?.getItem(BEGUN)) return "";
+    tab?.setItem(BEGUN, "yes");
+    return this.hello?.given[0] ?? "";
   }
 
   /** Show a clip. */

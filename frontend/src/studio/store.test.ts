@@ -19,8 +19,8 @@ const motion = { head: { frames: 11, frame_time: 0.1, shape: {}, joints: [] } } 
 function made(kept: Project | null = null, shelf = new Map<string, string>()) {
   const edits: EditRequest[] = [];
   const api = {
-    hello: vi.fn().mockResolvedValue({ clips } as unknown as Hello),
-    project: () => (kept ? Promise.resolve(kept) : Promise.reject(new Failed("said", "none", 404))),
+    hello: vi.fn().mockResolvedValue({ clips, given: [] } as unknown as Hello),
+    project: () => (kept ? Promise.resolve(kept) : Promise.resolve(null)),
     keepProject: vi.fn().mockResolvedValue(undefined),
     motion: vi.fn().mockResolvedValue(motion),
     edit: vi.fn((request: EditRequest) => Promise.resolve(edits.push(request) && { ...motion })),

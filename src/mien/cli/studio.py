@@ -49,7 +49,8 @@ def studio(
     server = serve(Workspace(workspace or usual_folder()), host=host, port=port, usual=USUAL_PORT)
     for clip in found:
         try:
-            server.session.open(clip.path.name, clip.path.read_bytes())
+            opened = server.session.open(clip.path.name, clip.path.read_bytes())
+            server.session.given.append(opened.id)
         except (MienError, OSError) as error:
             complain(str(error))
     typer.echo(server.address)

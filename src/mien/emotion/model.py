@@ -104,6 +104,10 @@ class EmotionModel:
     laban: Laban
     clusters: ClusterTables
 
+    def __repr__(self) -> str:
+        labels = ", ".join(self.change.planes.names)
+        return f"EmotionModel({self.card.get('takes', 'some')} takes: {labels})"
+
     def place(self, probabilities: Mapping[str, float]) -> Point:
         """Return the mean place of the labels that have one, by their probabilities."""
         weights = np.array([probabilities[label] for label in self.places])

@@ -59,7 +59,7 @@ def _thinned(values: Array) -> list[float]:
 def _reading(reading: Reading) -> ReadingInfo:
     labels = [(label, round(share, 4)) for label, share in list(reading.labels.items())[:LABELS]]
     why = [Why(r.what, r.how_much, round(r.pull, 3)) for r in reading.why]
-    return ReadingInfo(place(reading.place), labels, why, reading.against)
+    return ReadingInfo(place(reading.place), labels, why, reading.against, round(reading.placed, 3))
 
 
 def _finding(finding: Finding) -> CheckInfo:

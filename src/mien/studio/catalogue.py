@@ -16,7 +16,7 @@ SHOWN = ("walk", "wave", "dance", "knock", "jump", "punch", "tired_walk", "turn"
 KINDS: dict[type, ValueKind] = {float: "number", int: "whole", bool: "flag", str: "text", tuple: "list"}
 
 
-def hello(clips: list[ClipInfo], *, largest_upload: int) -> Hello:
+def hello(clips: list[ClipInfo], given: list[str], *, largest_upload: int) -> Hello:
     """Return what the page needs to begin."""
     return Hello(
         version=version("mien"),
@@ -27,6 +27,7 @@ def hello(clips: list[ClipInfo], *, largest_upload: int) -> Hello:
         parts=list(PARTS),
         roles=list(ROLES),
         clips=clips,
+        given=given,
         largest_upload=largest_upload,
     )
 

@@ -138,7 +138,7 @@ class Word:
 
 @dataclass(frozen=True)
 class Hello:
-    """What the page needs to begin."""
+    """What the page needs to begin; ``given`` are the ids of the clips named when the studio was started."""
 
     version: str
     samples: list[str]
@@ -148,6 +148,7 @@ class Hello:
     parts: list[str]
     roles: list[str]
     clips: list[ClipInfo]
+    given: list[str]
     largest_upload: int
 
 
@@ -171,12 +172,17 @@ class Why:
 
 @dataclass(frozen=True)
 class ReadingInfo:
-    """What a motion expresses: its place, the likeliest labels with their probabilities, the reasons."""
+    """What a motion expresses: its place, the likeliest labels with their probabilities, the reasons.
+
+    ``against`` is ``neutral`` or, where that is a guess, ``usual``; ``placed`` is the share of the labels
+    that have a place on the disc.
+    """
 
     place: Place
     labels: list[tuple[str, float]]
     why: list[Why]
     against: str
+    placed: float
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """Small pictures of presets for the panel: one moment of the sample walk, edited; made once, then kept."""
 
+from hashlib import sha256
 from importlib.metadata import version
 from io import BytesIO
 from pathlib import Path
@@ -11,14 +12,16 @@ from ..formats import files
 from ..render import strip
 from ..samples import walk
 
-SECONDS, WIDTH, POSES = 2.4, 240, 3
+SECONDS = 2.4
+SHEET, WIDTH, TOP, BOTTOM = 700, 200, 16, 26  # pixels: of the sheet, of the picture, what is cut off
 
 
 def preset_picture(name: str, folder: Path) -> bytes:
     """Return the picture of a preset as PNG, kept in a folder; raises ``MienError`` for an unknown one."""
     if name not in PRESETS:
         raise MienError(unknown("preset", name, PRESETS))
-    path = folder / "pictures" / version("mien") / f"{name.replace('/', '_')}.png"
+    made_of = sha256(f"{version('mien')} {preset(name)!r}".encode()).hexdigest()
+    path = folder / "pictures" / f"{made_of}.png"
     try:
         return path.read_bytes()
     except OSError:
@@ -29,8 +32,12 @@ def preset_picture(name: str, folder: Path) -> bytes:
 
 
 def _picture(name: str) -> bytes:
-    motion = walk(seconds=SECONDS).motion
-    picture = strip(apply(motion, preset(name)), poses=POSES, views=("side",), width=WIDTH, title="")
+    motion = apply(walk(seconds=SECONDS).motion, preset(name))
+    sheet = strip(motion, poses=1, views=("three-quarter",), width=SHEET, title="")
+    # The figure stands in the middle of its sheet; the names of the view and the time are left off.
+    width, height = sheet.size
+    half = WIDTH // 2
+    picture = sheet.crop((width // 2 - half, TOP, width // 2 + half, height - BOTTOM))
     data = BytesIO()
     picture.save(data, "PNG")
     return data.getvalue()

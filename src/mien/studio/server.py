@@ -87,7 +87,7 @@ def _clips(app: FastAPI, session: Session) -> None:
     @app.get("/api/hello")
     def greet() -> Hello:
         with session.alone():
-            return hello(session.infos(), largest_upload=LARGEST_UPLOAD)
+            return hello(session.infos(), list(session.given), largest_upload=LARGEST_UPLOAD)
 
     @app.get("/api/clips")
     def clips() -> list[ClipInfo]:
@@ -185,8 +185,7 @@ def _edits(app: FastAPI, session: Session) -> None:
 def _projects(app: FastAPI, session: Session) -> None:
     @app.get("/api/project")
     def project() -> Response:
-        found = session.workspace.project()
-        return JSONResponse(found) if found else JSONResponse({"error": "nothing was kept yet"}, 404)
+        return JSONResponse(session.workspace.project())  # null where nothing was kept yet
 
     @app.put("/api/project")
     def keep(project: Project) -> None:

@@ -60,6 +60,7 @@ class Session:
 
     def __init__(self, workspace: Workspace) -> None:
         self.workspace = workspace
+        self.given: list[str] = []  # ids of the clips that were named when the studio was started
         self._lock = Lock()
         self._clips: dict[str, Clip] = {}
         self._edits: OrderedDict[tuple[str, str, bool], Motion] = OrderedDict()

@@ -9,9 +9,7 @@ from ...typing import Array
 from .scene import Scene
 
 # Seconds that too much force has to last. Weight goes from foot to foot within a tenth or two, and when
-# exactly
-# a foot lets go is not known so well; 25 cm out of balance for a tenth of a second is a centimetre of
-# falling.
+# exactly a foot lets go is not known so well; 25 cm out of balance for 0.1 s is a centimetre of falling.
 LASTING_FORCES = 0.2
 NEAR = 0.3  # seconds: what a source shows so near in time may move there with a limb's timing
 
@@ -69,6 +67,10 @@ class Check:
             over = found.values.mean(axis=0) - allowed[0]
             return np.broadcast_to(over, found.values.shape)
         return _sustained(found.values - allowed, round(self.lasting / scene.motion.frame_time))
+
+    def lasting_values(self, found: Measured, frame_time: float) -> Array:
+        """Return the values (T, P) that are kept up for long enough to count."""
+        return _sustained(found.values, round(self.lasting / frame_time))
 
 
 def _sustained(values: Array, frames: int) -> Array:

@@ -61,10 +61,10 @@ class Mark:
 class Finding:
     """What one check found.
 
-    ``value`` is the largest (of an overall check the largest mean), where something is too much that which is
-    most so; ``allowed`` is what was allowed there. ``source`` is the largest of the source, not a number
-    without one. ``over`` (T, P) is by how much each value of the ``parts`` is too large, below 0 where it is
-    not.
+    ``value`` is the largest that lasts long enough to count (of an overall check the largest mean), where
+    something is too much that which is most so; ``allowed`` is what was allowed there. ``source`` is the
+    largest of the source, not a number without one. ``over`` (T, P) is by how much each value of the
+    ``parts`` is too large, below 0 where it is not.
     """
 
     check: Check
@@ -178,13 +178,15 @@ def _find(check: Check, scene: Scene, before: Measured | None) -> Finding:
     bad = over > 0.0
     too_often = bad.any(axis=1).mean() > (check.share if before is None and not check.overall else 0.0)
     shown = np.broadcast_to(found.values.mean(axis=0), over.shape) if check.overall else found.values
-    # What stands in the table: where it is most too much, or where there is most if nothing is too much.
+    # What stands in the table: where it is most too much, or where there is most if nothing is too much; of
+    # that what lasts long enough to count, so that a check that passes shows no more than is allowed.
+    shown = shown if bad.any() else allowed + over
     score = np.where(bad, shown - allowed, -np.inf) if bad.any() else shown
     at = np.unravel_index(int(np.argmax(score)), score.shape) if score.size else None
     return Finding(
         check=check,
         value=float(shown[at]) if at else 0.0,
-        source=_most(check, before) if before else NAN,
+        source=_most(check, before, scene.motion.frame_time) if before else NAN,
         allowed=float(allowed[at]) if at else NAN,
         passed=not too_often,
         over=over,
@@ -194,9 +196,9 @@ def _find(check: Check, scene: Scene, before: Measured | None) -> Finding:
     )
 
 
-def _most(check: Check, found: Measured) -> float:
-    """Return the largest value; of an overall check, of the means over time."""
-    values = found.values.mean(axis=0) if check.overall else found.values
+def _most(check: Check, found: Measured, frame_time: float) -> float:
+    """Return the largest value that lasts long enough; of an overall check, of the means over time."""
+    values = found.values.mean(axis=0) if check.overall else check.lasting_values(found, frame_time)
     return float(values.max()) if values.size else 0.0
 
 
