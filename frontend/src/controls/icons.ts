@@ -36,6 +36,7 @@ export const ICONS = {
   right: { line: "M6 3.5 10.5 8 6 12.5" },
   grip: { fill: "M5 3h2v2H5zM9 3h2v2H9zM5 7h2v2H5zM9 7h2v2H9zM5 11h2v2H5zM9 11h2v2H9z" },
   key: { fill: "M8 2l6 6-6 6-6-6z" },
+  nokey: { line: "M8 3l5 5-5 5-5-5z" },
   keyadd: { fill: "M6 4l5 5-5 5-5-5z", line: "M12.5 1.5v5M10 4h5" },
   edit: { line: "M3 13l.7-3L10.5 3.2l2.3 2.3L6 12.3z" },
   fit: { line: "M2 5V2h3M11 2h3v3M14 11v3h-3M5 14H2v-3M4.5 8h7" },

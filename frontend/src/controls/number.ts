@@ -55,6 +55,8 @@ const SHORT: Record<string, string> = {
   "leg lengths": "leg",
   "frames a second": "fps",
   percent: "%",
+  "m/s2": "m/s²",
+  "x strength": "× strength",
 };
 
 /** A unit as short as a number field has room for. */

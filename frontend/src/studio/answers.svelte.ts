@@ -6,6 +6,9 @@ import { Latest } from "./latest";
 import { nineOf, type Nine } from "./nine";
 import { EMPTY, isIdle } from "./stack";
 
+/** So many frames an answer takes a second for at worst, on a slow machine that has other things to do. */
+const FRAMES_A_SECOND = 60;
+
 /** An edited motion, and the stack that made it. */
 export interface Made {
   motion: Clip;
@@ -42,19 +45,19 @@ export class Answers {
     private readonly settled: () => void,
   ) {
     this.#edits = new Latest(
-      (request, signal) => api.edit(request, signal),
+      (request, signal) => api.edit(request, signal, this.#patience()),
       (motion, request) => this.#edited(motion, request),
       (problem, request) => this.#refused(problem, request),
       (busy) => (this.editing = busy),
     );
     this.#readings = new Latest(
-      (request, signal) => api.reading(request, signal),
+      (request, signal) => api.reading(request, signal, this.#patience()),
       (readings, request) => void (request.clip === this.#clip && (this.readings = readings)),
       (problem) => this.#quietly(problem),
       (busy) => (this.reading = busy),
     );
     this.#checks = new Latest(
-      (request, signal) => api.checks(request, signal),
+      (request, signal) => api.checks(request, signal, this.#patience()),
       (checks, request) => void (request.clip === this.#clip && (this.checks = checks)),
       (problem) => this.#quietly(problem),
       (busy) => (this.checking = busy),
@@ -123,6 +126,11 @@ export class Answers {
     } catch {
       this.#wantsNine = false; // the square works without, by asking each time
     }
+  }
+
+  /** Seconds to wait for an answer: longer clips take longer. */
+  #patience(): number {
+    return Math.max(120, Math.ceil((this.original?.head.frames ?? 0) / FRAMES_A_SECOND));
   }
 
   #request(stack: Stack, live: boolean): EditRequest {

@@ -66,17 +66,17 @@ export class Api {
   motion = async (id: string): Promise<Clip> =>
     decode(await this.#bytes(`clips/${encodeURIComponent(id)}/motion`, { seconds: 120 }));
 
-  edit = async (request: messages.EditRequest, signal?: AbortSignal): Promise<Clip> =>
-    decode(await this.#bytes("edit", { method: "POST", json: request, seconds: 120, signal }));
+  edit = async (request: messages.EditRequest, signal?: AbortSignal, seconds = 120): Promise<Clip> =>
+    decode(await this.#bytes("edit", { method: "POST", json: request, seconds, signal }));
 
   square = async (request: messages.EditRequest) =>
     unpack<messages.Frames>(await this.#bytes("square", { method: "POST", json: request, seconds: 120 }));
 
-  reading = (request: messages.EditRequest, signal?: AbortSignal) =>
-    this.#json<messages.Readings>("reading", { method: "POST", json: request, seconds: 120, signal });
+  reading = (request: messages.EditRequest, signal?: AbortSignal, seconds = 120) =>
+    this.#json<messages.Readings>("reading", { method: "POST", json: request, seconds, signal });
 
-  checks = (request: messages.EditRequest, signal?: AbortSignal) =>
-    this.#json<messages.Checks>("checks", { method: "POST", json: request, seconds: 120, signal });
+  checks = (request: messages.EditRequest, signal?: AbortSignal, seconds = 120) =>
+    this.#json<messages.Checks>("checks", { method: "POST", json: request, seconds, signal });
 
   curves = (request: messages.CurvesRequest, signal?: AbortSignal) =>
     this.#json<messages.Curve[]>("curves", { method: "POST", json: request, seconds: 120, signal });

@@ -28,7 +28,13 @@ export interface Place {
   themes: Themes;
   pickFiles: () => void;
   /** What the viewport can be told. */
-  stage: { view(name: string): void; frame(all: boolean): void; fullscreen(): void; picture(): void };
+  stage: {
+    view(name: string): void;
+    frame(all: boolean): void;
+    fullscreen(): void;
+    picture(): void;
+    link(): void;
+  };
 }
 
 /** All commands as they are now. */
@@ -226,8 +232,8 @@ function viewCommands({ studio, themes, stage }: Place): Command[] {
       id: toggle,
       name: `${label}: ${hint}`,
       group: "View",
-      run: () => studio.show({ [toggle]: !view[toggle] }),
-      checked: view[toggle],
+      run: () => studio.toggle(toggle),
+      checked: studio.isOn(toggle),
     })),
     { id: "frame-all", name: "Look at all of it", group: "View", run: () => stage.frame(true) },
     { id: "frame-selection", name: "Look at the figure", group: "View", run: () => stage.frame(false) },
@@ -236,6 +242,13 @@ function viewCommands({ studio, themes, stage }: Place): Command[] {
     { id: "view-top", name: "From above", group: "View", run: () => stage.view("top") },
     { id: "view-perspective", name: "From a corner", group: "View", run: () => stage.view("perspective") },
     { id: "fullscreen", name: "Viewport in full screen", group: "View", run: stage.fullscreen },
+    {
+      id: "copy-link",
+      name: "Copy a link to this view",
+      group: "View",
+      run: stage.link,
+      can: studio.clip !== undefined,
+    },
     {
       id: "theme",
       name: themes.theme === "dark" ? "Light colours" : "Dark colours",

@@ -6,9 +6,11 @@ import type { Studio } from "./store.svelte";
 
 /** Open clips and project files, one after the other, and show the last. */
 export async function openFiles(studio: Studio, files: Iterable<File>): Promise<void> {
+  studio.notices.closeErrors(); // of files before: this is another try
   for (const file of files) {
     if (isProject(file.name)) await openProject(studio, file);
-    else await openFile(studio, file.name, file);
+    else if (isClip(file.name)) await openFile(studio, file.name, file);
+    else studio.notices.error(`${file.name} is neither a .bvh clip nor a .json project of the studio.`);
   }
 }
 
@@ -39,7 +41,7 @@ async function opened(
     const there = studio.clips.some(({ id }) => id === clip.id);
     studio.clips = there ? studio.clips : [...studio.clips, clip];
     await studio.select(clip.id);
-    if (clip.problem) studio.notices.note(`${clip.name} can be looked at, not edited: ${clip.problem}`);
+    if (clip.problem) studio.notices.note(`${clip.name} can be looked at, not edited: the panel says why.`);
     return clip;
   } catch (problem) {
     studio.notices.error(withName(name, asSentence(problem)));
@@ -111,6 +113,10 @@ export function give({ name, data }: Download): void {
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
+function isClip(name: string): boolean {
+  return /\.bvh$/i.test(name);
 }
 
 function isProject(name: string): boolean {

@@ -5,8 +5,13 @@ function press(key: string, held: Partial<Record<"ctrlKey" | "metaKey" | "shiftK
   return { key, ctrlKey: false, metaKey: false, shiftKey: false, altKey: false, ...held };
 }
 
-function element(tagName: string, attributes: Record<string, string> = {}): EventTarget {
-  return { tagName, getAttribute: (name: string) => attributes[name] ?? null } as unknown as EventTarget;
+function element(
+  tagName: string,
+  attributes: Record<string, string> = {},
+  dataset: Record<string, string> = {},
+): EventTarget {
+  const getAttribute = (name: string) => attributes[name] ?? null;
+  return { tagName, dataset, getAttribute } as unknown as EventTarget;
 }
 
 describe("chord", () => {
@@ -45,6 +50,12 @@ describe("isTaken", () => {
     expect(isTaken(field, press("g"))).toBe(true);
     expect(isTaken(field, press("z", { ctrlKey: true }))).toBe(true);
     expect(isTaken(field, press("k", { ctrlKey: true }))).toBe(false);
+  });
+
+  it("lets a number field undo where nothing is being typed", () => {
+    const field = element("INPUT", { type: "text" }, { settled: "" });
+    expect(isTaken(field, press("z", { ctrlKey: true }))).toBe(false);
+    expect(isTaken(field, press("z"))).toBe(true);
   });
 
   it("lets letters through a slider, and no arrows", () => {

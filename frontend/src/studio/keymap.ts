@@ -105,7 +105,9 @@ export function isTaken(target: EventTarget | null, press: Press): boolean {
     name === "TEXTAREA" ||
     target.isContentEditable === true ||
     (name === "INPUT" && TYPING.has(target.getAttribute("type") ?? ""));
-  if (typing) return !(withCommand && "kseo".includes(press.key.toLowerCase()));
+  // A field in which nothing is being typed has nothing of its own to undo.
+  const free = target.dataset?.["settled"] === undefined ? "kseo" : "kseozy";
+  if (typing) return !(withCommand && free.includes(press.key.toLowerCase()));
   if (withCommand) return false;
   const role = target.getAttribute("role") ?? "";
   const moves =

@@ -29,6 +29,10 @@ export class Notices {
     this.all = this.all.filter((notice) => notice.id !== id);
   }
 
+  closeErrors(): void {
+    this.all = this.all.filter(({ kind }) => kind !== "error");
+  }
+
   #add(kind: Notice["kind"], text: string, action?: Notice["action"]): number {
     // The same error twice is one error.
     const there = this.all.find((notice) => notice.kind === kind && notice.text === text);

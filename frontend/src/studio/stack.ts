@@ -170,10 +170,13 @@ export function isChanged(layer: Layer | undefined, edit: EditInfo): boolean {
   });
 }
 
+/** Edits whose own name says little to people who did not make them; as their sections are called. */
+const NAMED: Record<string, string> = { grid: "Paths and timing" };
+
 /** A name for people: "tired", "posture", "pleasant 0.60, calm 0.30". */
 export function title(layer: Layer): string {
   if (layer.kind === "emotion") return sentence(moodName(layer.name));
-  if (layer.kind === "edit") return sentence(layer.name);
+  if (layer.kind === "edit") return NAMED[layer.name] ?? sentence(layer.name);
   const { valence, arousal } = layer.parameters;
   return typeof valence === "number" && typeof arousal === "number"
     ? `Disc ${signed(valence)}, ${signed(arousal)}`

@@ -9,7 +9,7 @@ import * as histories from "./history";
 import { Notices } from "./notices.svelte";
 import { Keeper, Tabs, keptHere, newer, type Keeping } from "./project";
 import * as stacks from "./stack";
-import { freshView, readView, type View } from "./view";
+import { freshView, isOn, readView, type Toggle, type View } from "./view";
 
 /** Milliseconds in which a second change of the same kind belongs to the first. */
 const QUICK = 600;
@@ -31,6 +31,8 @@ export class Studio {
   selected = $state("");
   view = $state<View>(freshView());
   dialog = $state<Dialog>("");
+  /** Whether original and edit go different ways, or at different speeds. */
+  parting = $state(false);
   /** While it is held, the original is shown in place of the edit. */
   showsOriginal = $state(false);
   reach = $state<Reach>("there");
@@ -209,6 +211,14 @@ export class Studio {
     Object.assign(this.view, fields);
     if (fields.curves) this.answers.draw(this.stack, this.view.curves);
     this.keep();
+  }
+
+  isOn(toggle: Toggle): boolean {
+    return isOn(this.view, toggle, this.parting);
+  }
+
+  toggle(toggle: Toggle): void {
+    this.show({ [toggle]: !this.isOn(toggle) });
   }
 
   /** Show the curve of a joint, in place of that of another; null takes it away. */

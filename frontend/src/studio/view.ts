@@ -4,7 +4,8 @@ export type Mode = "edited" | "overlay" | "side" | "wipe";
 
 export interface View {
   mode: Mode;
-  treadmill: boolean;
+  /** On the spot or not; null: where original and edit would part from each other. */
+  treadmill: boolean | null;
   follow: boolean;
   trails: boolean;
   footprints: boolean;
@@ -26,10 +27,14 @@ export type Toggle =
   "treadmill" | "follow" | "trails" | "footprints" | "names" | "grid" | "neutral" | "phase";
 
 export const TOGGLES: readonly { toggle: Toggle; label: string; hint: string }[] = [
-  { toggle: "treadmill", label: "In place", hint: "walk on the spot, so that different speeds stay in view" },
+  {
+    toggle: "treadmill",
+    label: "In place",
+    hint: "walk on the spot, so that different speeds stay in view; by itself where the two would part",
+  },
   { toggle: "follow", label: "Follow", hint: "the camera goes with the figure" },
   { toggle: "trails", label: "Trails", hint: "where hands, feet and head went" },
-  { toggle: "footprints", label: "Feet", hint: "where feet stand" },
+  { toggle: "footprints", label: "Feet", hint: "where feet stand; red where one slides" },
   { toggle: "names", label: "Names", hint: "names of joints" },
   { toggle: "grid", label: "Grid", hint: "a grid of metres on the floor" },
   { toggle: "neutral", label: "One colour", hint: "left and right without colours of their own" },
@@ -40,10 +45,24 @@ export const TOGGLES: readonly { toggle: Toggle; label: string; hint: string }[]
   },
 ];
 
+const PART = 0.3; // metres from which two figures are no longer seen as one over the other
+const MEET = 0.15; // metres below which they are again
+
+/** Whether two figures part, by how far they get from each other; between the limits it stays as it was. */
+export function parts(drift: number, before: boolean): boolean {
+  return drift > (before ? MEET : PART);
+}
+
+/** What is on: as chosen, or else, for walking on the spot, as the comparison needs it. */
+export function isOn(view: View, toggle: Toggle, parting: boolean): boolean {
+  const over = view.mode === "overlay" || view.mode === "wipe";
+  return view[toggle] ?? (parting && over && view.follow);
+}
+
 export function freshView(): View {
   return {
     mode: "overlay",
-    treadmill: false,
+    treadmill: null,
     follow: true,
     trails: false,
     footprints: false,

@@ -1,5 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { band, columns, extent, heights, indexAt, isDense, line, points, valueAt } from "./decimate";
+import {
+  axisOf, band, columns, extent, heights, indexAt, isDense, line, points, readable, valueAt,
+} from "./decimate";
 
 const FRAMES = 36_000; // five minutes
 const times = Float64Array.from({ length: FRAMES }, (_, i) => i / 120);
@@ -42,13 +44,29 @@ it("a moment is found, and the value there", () => {
   expect(valueAt([], [], 0)).toBeNull();
 });
 
-it("the axis has room for a level curve and for none", () => {
-  expect(extent([1, 5], [-2])).toEqual([-2, 5]);
-  const [low, high] = extent([3, 3]);
-  expect(low).toBeLessThan(3);
-  expect(high).toBeGreaterThan(3);
-  expect(extent([])).toEqual([0, 1]);
-  expect(extent([NaN, 1, 2])).toEqual([1, 2]);
+it("an axis has a least range, so that noise stays small", () => {
+  expect(extent(1, [1, 5], [-2])).toEqual([-2, 5]);
+  expect(extent(2, [80, 80.5])).toEqual([79.25, 81.25]);
+  expect(extent(0.5, [0, 0.01])).toEqual([0, 0.5]);
+  expect(extent(1, [])).toEqual([0, 1]);
+  expect(extent(1, [NaN, 1, 2])).toEqual([1, 2]);
+});
+
+it("an axis leaves out a jump at the start, and no other", () => {
+  const at = Array.from({ length: 100 }, (_, i) => i / 60);
+  const times = { before_times: at, after_times: at };
+  const made = (values: number[]) =>
+    axisOf({ name: "hand speed", unit: "m/s", before: values, after: values, ...times });
+  const calm = at.map((t) => 1 + Math.sin(9 * t));
+  expect(made(calm.map((v, i) => (i < 4 ? 15 : v)))[1]).toBeLessThan(2.1);
+  expect(made(calm.map((v, i) => (i === 50 ? 15 : v)))[1]).toBe(15);
+  expect(made(calm.map((v, i) => (i < 4 ? 3 : v)))[1]).toBe(3);
+});
+
+it("values have as many decimals as their axis deserves", () => {
+  expect(readable(0.0555, 0, 0.4)).toBe("0.056");
+  expect(readable(84.123, 74, 86)).toBe("84.1");
+  expect(readable(-312.4, -400, 100)).toBe("−312");
 });
 
 it("a line has gaps where there is no number, a band goes there and back", () => {

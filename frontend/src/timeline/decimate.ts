@@ -1,4 +1,5 @@
 // Curves of many frames on few pixels: a line where frames are few, else lowest and highest of each column.
+import type { Curve } from "../messages";
 import type { View } from "./view";
 
 const DENSE = 2; // frames a pixel from which a line would only be a blot
@@ -62,8 +63,18 @@ export function columns(
   return out;
 }
 
-/** Lowest and highest of several series; a level one gets some room. */
-export function extent(...series: ArrayLike<number>[]): [number, number] {
+const ROOM: Record<string, number> = { cm: 2, "m/s": 0.1, degrees: 2 };
+const LEAST = 0.2; // of valence and arousal, which have no unit
+const START = 0.15; // seconds in which a clip may come out of a pose that is no part of it, as captures do
+const FAR = 3; // times the range of all the rest
+
+/** The least range of an axis: what is smaller is noise, and not to be magnified. */
+export function leastRange(unit: string): number {
+  return ROOM[unit] ?? LEAST;
+}
+
+/** Lowest and highest of several series, at least `least` apart. */
+export function extent(least: number, ...series: ArrayLike<number>[]): [number, number] {
   let low = Infinity;
   let high = -Infinity;
   for (const values of series)
@@ -72,9 +83,27 @@ export function extent(...series: ArrayLike<number>[]): [number, number] {
       if (values[i] > high) high = values[i];
     }
   if (low > high) return [0, 1];
-  if (high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high), 1e-9)) return [low, high];
-  const room = Math.max(Math.abs(low) * 0.05, 1e-3);
-  return [low - room, high + room];
+  const short = (least - (high - low)) / 2;
+  if (short <= 0) return [low, high];
+  const down = low >= 0 ? Math.min(short, low) : short; // what is never negative needs no axis below 0
+  return [low - down, low - down + least];
+}
+
+/** The axis of a curve. A jump out of another pose at the start is left to run out of the picture. */
+export function axisOf({ before_times, before, after_times, after, unit }: Curve): [number, number] {
+  const whole = extent(leastRange(unit), before, after);
+  const from = (times: number[], values: number[]) => values.slice(indexAt(times, START));
+  const [first, second] = [from(before_times, before), from(after_times, after)];
+  if (!first.length && !second.length) return whole;
+  const later = extent(leastRange(unit), first, second);
+  return whole[1] - whole[0] > FAR * (later[1] - later[0]) ? later : whole;
+}
+
+/** A value with as many decimals as the range of its axis deserves. */
+export function readable(value: number, low: number, high: number): string {
+  const digits = Math.min(Math.max(Math.ceil(-Math.log10((high - low) / 50 || 1)), 0), 3);
+  const text = value.toFixed(digits);
+  return (Number(text) === 0 ? (0).toFixed(digits) : text).replace("-", "−");
 }
 
 /** Where a value stands in a lane. */

@@ -1,5 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { add, curveProblem, evaluate, move, parseCurve, remove, shownCurve, valueAt } from "./keys";
+import {
+  add, curveProblem, evaluate, keyAt, move, parseCurve, remove, setAt, shownCurve, valueAt,
+} from "./keys";
 
 const AT = [-0.5, 0, 0.1, 0.4, 0.75, 0.95, 1.1, 1.24, 1.5, 2.1, 2.7, 3.3, 4.05, 6];
 
@@ -70,4 +72,12 @@ describe("curves as text", () => {
   );
   it("have times that go up", () =>
     expect(curveProblem("1:0,1:1")).toBe("The times of the keys must go up."));
+});
+
+it("a key is found by a moment near it, and set there instead of beside it", () => {
+  const curve = [[0.5, 1], [1, 2]];
+  expect([keyAt(curve, 0.503, 0.004), keyAt(curve, 0.51, 0.004), keyAt(1, 0.5, 1)]).toEqual([0, -1, -1]);
+  expect(setAt(curve, 0.503, 3, 0.004)).toEqual([[0.5, 3], [1, 2]]);
+  expect(setAt(curve, 0.7, 3, 0.004)).toEqual([[0.5, 1], [0.7, 3], [1, 2]]);
+  expect(setAt(1, 0.7, 3, 0.004)).toEqual([[0.7, 3]]);
 });

@@ -63,6 +63,17 @@ export function add(value: Varying, time: number, amount: number): number[][] {
   return [...others, [time, amount] as Key].sort((a, b) => a[0] - b[0]);
 }
 
+/** The key at a moment, or as near as `within` seconds; -1 where there is none. */
+export function keyAt(value: Varying, time: number, within: number): number {
+  return keysOf(value).findIndex(([other]) => Math.abs(other - time) <= within);
+}
+
+/** Set the value at a moment: of the key that is there, or of a new one. */
+export function setAt(value: Varying, time: number, amount: number, within: number): number[][] {
+  const there = keysOf(value)[keyAt(value, time, within)];
+  return add(value, there ? there[0] : Number(time.toFixed(4)), amount);
+}
+
 /** Move a key; it stops `apart` seconds before its neighbours, at 0, at the end, and at 0 and `MOST`. */
 export function move(
   value: Varying, index: number, time: number, amount: number, duration: number, apart = 0.001,

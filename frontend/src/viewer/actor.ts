@@ -9,7 +9,7 @@ import { fk, newPose, newWorld, positionOf, type Pose, type World } from "../mot
 import { distance, type Vector } from "../motion/vectors";
 import { Mannequin, type FigureOptions } from "./mannequin";
 import { PALETTE } from "./solids";
-import { groundAt, inRoom, travelOf, TRAILS, wayOf, type Travel, type Way } from "./travel";
+import { groundAt, inRoom, SLIDES, travelOf, TRAILS, wayOf, type Travel, type Way } from "./travel";
 
 export interface Trails {
   hands: boolean;
@@ -19,6 +19,7 @@ export interface Trails {
 
 const WINDOW = 1.5; // seconds of a trail before and after the present
 const PRINT = 0.085; // metres: radius of a footprint's disc
+const SLIDING = new Color("#d3122e");
 const OF: Record<(typeof TRAILS)[number], keyof Trails> = {
   left_wrist: "hands", right_wrist: "hands", left_toe: "feet", right_toe: "feet", head: "head",
 };
@@ -161,9 +162,9 @@ export class Actor extends Group {
     const { footprints } = this.travel;
     const material = new MeshBasicMaterial({ transparent: true, opacity: 0.5, depthWrite: false });
     const discs = new InstancedMesh(new CircleGeometry(PRINT, 32).rotateX(-Math.PI / 2), material, footprints.length);
-    footprints.forEach(({ side, x, z }, i) => {
+    footprints.forEach(({ side, x, z, slide }, i) => {
       discs.setMatrixAt(i, new Matrix4().makeTranslation(x, 0.004, z));
-      discs.setColorAt(i, colourOf(side));
+      discs.setColorAt(i, slide > SLIDES ? SLIDING : colourOf(side));
     });
     discs.frustumCulled = false;
     return discs;

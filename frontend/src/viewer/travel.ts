@@ -14,6 +14,8 @@ export interface Footprint {
   /** Metres on the floor. */
   x: number;
   z: number;
+  /** Metres that the toe gets away from where it mostly is while the foot stands. */
+  slide: number;
 }
 
 /** The path on the floor. */
@@ -41,6 +43,8 @@ export interface Travel {
 const MOST = 900; // samples
 const COARSE = 1 / 12; // seconds from one sample of the way to the next: it is smooth, and wanted at once
 const SMOOTH = 0.35; // seconds: how far the path is smoothed
+export const SLIDES = 0.04; // metres from which a foot that stands is said to slide
+const ROLLS = 0.15; // share of a stand at either end, in which a foot comes down or peels off
 const MERGE = 0.06; // metres: a foot that moved less has not left its print
 export const TRAILS = ["left_wrist", "right_wrist", "left_toe", "right_toe", "head"] as const;
 
@@ -98,7 +102,7 @@ export function travelOf(source: PoseSource): Travel {
     const stands = source.contacts(i * step);
     for (const [k, side] of (["left", "right"] as const).entries()) {
       const [toe, ankle] = [at(joint(`${side}_toe`)), at(joint(`${side}_ankle`))];
-      prints[side].see(i * step, stands[k], scale(0.5, add(toe, ankle)));
+      prints[side].see(i * step, stands[k], scale(0.5, add(toe, ankle)), toe);
     }
   }
   const facing = Math.hypot(faced[0], faced[2]) > 0.2 * count ? Math.atan2(faced[0], faced[2]) : 0;
@@ -124,15 +128,17 @@ export function groundAt({ ground, count, step }: Way, seconds: number): readonl
 class Prints {
   #found: Footprint[] = [];
   #points: Vector[] = [];
+  #toes: Vector[] = [];
   #start = 0;
   #last = 0;
 
   constructor(readonly side: "left" | "right") {}
 
-  see(seconds: number, stands: boolean, place: Vector): void {
+  see(seconds: number, stands: boolean, place: Vector, toe: Vector): void {
     if (!stands) return this.#close();
     if (!this.#points.length) this.#start = seconds;
     this.#points.push(place);
+    this.#toes.push(toe);
     this.#last = seconds;
   }
 
@@ -143,13 +149,30 @@ class Prints {
 
   #close(): void {
     if (!this.#points.length) return;
-    const middle = (k: number): number => this.#points.map((p) => p[k]).sort((a, b) => a - b)[this.#points.length >> 1];
-    const [x, z] = [middle(0), middle(2)];
+    const [x, z] = middleOfAll(this.#points);
+    const slide = slideOf(this.#toes);
+    this.#toes = [];
     const before = this.#found[this.#found.length - 1];
-    if (before && Math.hypot(before.x - x, before.z - z) < MERGE) before.end = this.#last;
-    else this.#found.push({ side: this.side, start: this.#start, end: this.#last, x, z });
+    if (before && Math.hypot(before.x - x, before.z - z) < MERGE) {
+      before.end = this.#last;
+      before.slide = Math.max(before.slide, slide);
+    } else this.#found.push({ side: this.side, start: this.#start, end: this.#last, x, z, slide });
     this.#points = [];
   }
+}
+
+/** The x and z that points have mostly. */
+function middleOfAll(points: readonly Vector[]): readonly [number, number] {
+  const middle = (k: number): number => points.map((p) => p[k]).sort((a, b) => a - b)[points.length >> 1];
+  return [middle(0), middle(2)];
+}
+
+/** How far a toe gets from where it mostly is, but for the ends of the stand. */
+export function slideOf(toes: readonly Vector[]): number {
+  const ends = Math.round(ROLLS * toes.length);
+  const standing = toes.slice(ends, Math.max(toes.length - ends, ends + 1));
+  const [x, z] = middleOfAll(standing);
+  return Math.max(...standing.map((toe) => Math.hypot(toe[0] - x, toe[2] - z)));
 }
 
 function extend(range: { low: number[]; high: number[] }, point: Vector): void {

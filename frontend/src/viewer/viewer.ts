@@ -321,7 +321,10 @@ export class Viewer {
       this.#aspect(to - from);
       this.#renderer.render(this.#stage.scene, this.camera.apply());
     }
-    if (!panes.length) this.#renderer.render(this.#stage.scene, this.camera.apply());
+    if (!panes.length) {
+      this.#marker.visible = false;
+      this.#renderer.render(this.#stage.scene, this.camera.apply());
+    }
     this.#write(panes, width, height);
     this.#pace.ms = performance.now() - start;
   }
