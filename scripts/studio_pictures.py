@@ -153,6 +153,7 @@ def make_all(folder: Path, names: list[str]) -> None:
                 page.get_by_role("heading", name="Change the mood of a motion").wait_for()
                 settle(page)
                 make(page)
+                settle(page)
                 page.wait_for_timeout(400)
                 shot(page, name).save(folder / f"{name}.png", optimize=True)
                 page.close()

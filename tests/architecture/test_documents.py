@@ -118,6 +118,22 @@ def test_the_readme_picture_is_small_and_made_by_a_script() -> None:
     )
 
 
+def test_the_pictures_of_the_studio_are_small_and_made_by_a_script() -> None:
+    named = {Path(name).stem for name in re.findall(r"!\[[^\]]+\]\((studio/[^)]+)\)", text("docs/studio.md"))}
+    made = re.findall(r'^    "(\w+)": \(', text("scripts/studio_pictures.py"), re.MULTILINE)
+    there = list((DOCS / "studio").glob("*.png"))
+    assert named == set(made) == {path.stem for path in there}
+    assert sum(path.stat().st_size for path in there) < 1_000_000
+
+
+def test_the_keys_of_the_studio_are_current() -> None:
+    spec = importlib.util.spec_from_file_location("studio_keys", ROOT / "scripts" / "studio_keys.py")
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    assert script.written() == text("docs/studio.md"), "run `python scripts/studio_keys.py`"
+    assert script.table().count("\n") > 40
+
+
 def test_links_between_documents_lead_somewhere() -> None:
     pages = [*ROOT.glob("*.md"), *DOCS.rglob("*.md")]
     dead = [
