@@ -60,6 +60,19 @@ def check_front_end(front: Path) -> bool:
     return True
 
 
+def check_in_browser(python: Path) -> None:
+    """Run the tests in a browser, one after the other: each draws with both cores.
+
+    What fails is tried once more by itself, as a loaded machine without a graphics card can be too slow for a
+    browser's own time limits; that is said, and a test that fails twice has failed.
+    """
+    title = "pytest in a browser"
+    run(title, python, "-m", "pytest", "tests/browser", "-rs")
+    if title in FAILED:
+        FAILED.remove(title)
+        run(f"{title}, once more what failed", python, "-m", "pytest", "tests/browser", "--last-failed")
+
+
 def check_wheel(python: Path, place: Path, *, pages: bool) -> None:
     """Build the wheel, install it where nothing of the source tree is seen, run the demo and the studio."""
     run("build the wheel", python, "-m", "build", "--wheel", "--outdir", place / "dist", needed=True)
@@ -98,7 +111,9 @@ def main() -> None:
     run("ruff check", python, "-m", "ruff", "check", ".")
     run("ruff format", python, "-m", "ruff", "format", "--check", ".")
     run("mypy", python, "-m", "mypy")
-    run("pytest", python, "-m", "pytest", "-n", "2", *sys.argv[1:])
+    run("pytest", python, "-m", "pytest", "-n", "2", "--ignore=tests/browser", *sys.argv[1:])
+    if not sys.argv[1:]:
+        check_in_browser(python)
     place = Path(tempfile.mkdtemp(prefix="mien-check-"))
     try:
         run("documentation", python, "-m", "sphinx", "-q", "-W", "--keep-going", "docs", place / "docs")

@@ -245,3 +245,12 @@ def test_the_command_serves_and_ends(tmp_path: Path) -> None:
         child.kill()
     assert child.returncode in (0, 130)
     assert "Traceback" not in said
+
+
+def test_the_page_is_answered_while_an_edit_is_worked_out(
+    client: TestClient, clip: str, session: Session
+) -> None:
+    with session.alone():
+        assert client.get("/api/hello").json()["clips"][0]["id"] == clip
+        assert client.get(f"/api/clips/{clip}/motion").status_code == 200
+        assert client.post("/api/samples/wave").json()["name"] == "wave.bvh"

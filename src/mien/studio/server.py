@@ -86,41 +86,31 @@ def _failures(app: FastAPI) -> None:
 def _clips(app: FastAPI, session: Session) -> None:
     @app.get("/api/hello")
     def greet() -> Hello:
-        with session.alone():
-            return hello(session.infos(), list(session.given), largest_upload=LARGEST_UPLOAD)
+        return hello(session.infos(), list(session.given), largest_upload=LARGEST_UPLOAD)
 
     @app.get("/api/clips")
     def clips() -> list[ClipInfo]:
-        with session.alone():
-            return session.infos()
+        return session.infos()
 
     @app.post("/api/clips")
     async def upload(request: Request, name: str = "clip.bvh") -> ClipInfo:
         data = await _body(request)
-
-        def opened() -> ClipInfo:
-            with session.alone():
-                return session.open(name, data)
-
-        return await run_in_threadpool(opened)
+        return await run_in_threadpool(session.open, name, data)
 
     @app.post("/api/samples/{name}")
     def sample(name: str) -> ClipInfo:
         if name not in SHOWN:
             raise MienError(f"there is no sample {name!r:.40}; there are {', '.join(SHOWN)}")
-        with session.alone():
-            return session.open(f"{name}.bvh", bvh.render(SAMPLES[name]().motion))
+        return session.open(f"{name}.bvh", bvh.render(SAMPLES[name]().motion))
 
     @app.delete("/api/clips/{identity}")
     def close(identity: str) -> None:
-        with session.alone():
-            session.close(identity)
+        session.close(identity)
 
     @app.get("/api/clips/{identity}/motion")
     def motion(identity: str) -> Response:
-        with session.alone():
-            clip = session.clip(identity)
-            return Response(encode(clip.motion, clip.id, like=clip.figure), media_type=BINARY)
+        clip = session.clip(identity)
+        return Response(encode(clip.motion, clip.id, like=clip.figure), media_type=BINARY)
 
     @app.get("/api/presets/{name:path}.png")
     def picture(name: str) -> Response:

@@ -61,7 +61,8 @@ class Session:
     def __init__(self, workspace: Workspace) -> None:
         self.workspace = workspace
         self.given: list[str] = []  # ids of the clips that were named when the studio was started
-        self._lock = Lock()
+        self._lock = Lock()  # of what is worked out
+        self._files = Lock()  # of what is open: the page is answered while an edit is worked out
         self._clips: dict[str, Clip] = {}
         self._edits: OrderedDict[tuple[str, str, bool], Motion] = OrderedDict()
         self._turns: dict[str, int] = {}
@@ -71,13 +72,14 @@ class Session:
 
         Raises ``FormatError`` with what is wrong with it.
         """
-        known = set(self.workspace.names())
-        identity = self.workspace.keep(name, data)
+        with self._files:
+            known = set(self.workspace.names())
+            identity = self.workspace.keep(name, data)
         try:
             return self.clip(identity).info()
         except MienError as error:
             if identity not in known:
-                self.workspace.forget(identity)
+                self.close(identity)
             text = str(error).replace(self.workspace.path(identity).name, self.workspace_name(name))
             raise FormatError(text) from None
 
@@ -90,7 +92,8 @@ class Session:
 
     def close(self, identity: str) -> None:
         """Close a clip."""
-        self.workspace.forget(identity)
+        with self._files:
+            self.workspace.forget(identity)
         self._clips.pop(identity, None)
 
     def infos(self) -> list[ClipInfo]:
