@@ -174,8 +174,10 @@ def test_own_keys(walking: Studio) -> None:
     assert ghost.is_checked()
     walking.press("h")
     assert not ghost.is_checked()
+    walking.settle()
     walking.page.reload()
     walking.settle()
+    assert not ghost.is_checked()
     walking.press("h")
     assert ghost.is_checked(), "they are kept"
     walking.press("?")
@@ -269,14 +271,14 @@ class TestSquare:
         )
         x, y = middle(surface)
         width = surface.bounding_box()["width"]
-        studio.page.evaluate(f"{V}.playback.set({{ time: 1.2 }})")
+        studio.page.evaluate(f"{V}.playback.set({{ time: 1.3 }})")
         places = lambda: np.array(list(studio.page.evaluate(f"{V}.jointsOnScreen()").values()))  # noqa: E731
         original, held = places(), []
         slow = True
         studio.page.route("**/api/edit", lambda route: held.append(route) if slow else route.continue_())
         studio.page.mouse.move(x, y)
         studio.page.mouse.down()
-        studio.page.mouse.move(x - 0.4 * width, y - 0.3 * width)
+        studio.page.mouse.move(x - 0.4 * width, y)
         studio.until("window.__asked > 0")
         blended, slow = places(), False
         for route in held:
@@ -285,7 +287,7 @@ class TestSquare:
         studio.settle()
         answered = places()
         assert np.abs(original - answered).max() > 20
-        assert np.abs(blended - answered).max() < 0.2 * np.abs(original - answered).max()
+        np.testing.assert_allclose(blended, answered, atol=0.5)  # pixels
 
 
 class TestLayers:
