@@ -120,7 +120,8 @@ def test_a_model_of_ones_own_moves_clips(folder: Path, run: Run) -> None:
     from mien.emotion.model import format_model, shipped_model
 
     shipped = shipped_model()
-    twice = replace(shipped, changes={label: 2.0 * change for label, change in shipped.changes.items()})
+    changes = {label: 2.0 * change for label, change in shipped.clusters.changes.items()}
+    twice = replace(shipped, clusters=replace(shipped.clusters, changes=changes))
     Path("ours.json").write_text(format_model(twice), encoding="utf-8")
     assert run("edit", "walk.bvh", "--to", "sad", "--method", "rules").exit_code == 0
     ours = run(
