@@ -14,10 +14,10 @@ import numpy as np
 
 from mien.emotion.presets import OWN
 from mien.formats import bvh
+from mien.render.wire import encode
 from mien.samples import walk
 from mien.studio.messages import EditRequest, Layer, Stack
 from mien.studio.session import Session
-from mien.studio.wire import encode
 from mien.studio.workspace import Workspace
 
 

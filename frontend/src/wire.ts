@@ -1,5 +1,5 @@
 // Binary answers of the server: "MIEN", the length of the head, the head in JSON, then its arrays
-// (src/mien/studio/wire.py writes them).
+// (src/mien/render/wire.py writes them).
 import type { Frames } from "./messages";
 
 /** A motion as the page holds it: its head, and its arrays by name. */

@@ -10,9 +10,9 @@ from mien.kinematics.body import Body
 from mien.kinematics.contacts import detect
 from mien.kinematics.fk import fk
 from mien.motion import Motion
+from mien.render.wire import encode
 from mien.samples import SKELETONS
 from mien.studio.square import encode_square
-from mien.studio.wire import encode
 
 
 @pytest.mark.parametrize("skeleton", SKELETONS)

@@ -17,6 +17,7 @@ from starlette.staticfiles import StaticFiles
 from ..emotion.safe import mended
 from ..errors import FormatError, MienError, sentence
 from ..formats import bvh
+from ..render.wire import encode
 from ..samples import SAMPLES
 from . import answers
 from .catalogue import SHOWN, hello
@@ -39,7 +40,6 @@ from .security import App, Guard
 from .session import Session, SupersededError
 from .square import encode_square
 from .stack import asked
-from .wire import encode
 
 STATIC = Path(__file__).parent / "static"
 LARGEST_UPLOAD = 256 * 2**20

@@ -6,9 +6,9 @@ import numpy as np
 
 from ..motion import Motion
 from ..render.figure import Figure
+from ..render.wire import frames_of, packed, places
 from ..styles.grid import NINE, grid
 from .messages import Frames
-from .wire import frames_of, packed, places
 
 
 def encode_square(motion: Motion, clip: str, *, like: Figure) -> bytes:
