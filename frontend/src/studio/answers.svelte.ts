@@ -4,10 +4,13 @@ import type { Clip } from "../wire";
 import { asSentence, Failed, type Api } from "./api";
 import { Latest } from "./latest";
 import { nineOf, type Nine } from "./nine";
+import { restOf, stops, withValue, type Knob, type Point, type Rail } from "./rail";
 import { EMPTY, isIdle } from "./stack";
 
 /** So many frames an answer takes a second for at worst, on a slow machine that has other things to do. */
 const FRAMES_A_SECOND = 60;
+/** Of longer clips no rails are laid: five motions of theirs would keep the slider's own answers waiting. */
+const LONGEST_RAIL = 3000;
 
 /** An edited motion, and the stack that made it. */
 export interface Made {
@@ -16,11 +19,20 @@ export interface Made {
   live: boolean;
 }
 
+/** A rail that is wanted: for a knob of a stack. */
+interface RailRequest {
+  clip: string;
+  stack: Stack;
+  knob: Knob;
+  rest: string;
+}
+
 /** Asks in the background, one at a time of each kind; the page shows whatever came last. */
 export class Answers {
   original = $state.raw<Clip | null>(null);
   made = $state.raw<Made | null>(null);
   nine = $state.raw<Nine | null>(null);
+  rail = $state.raw<Rail | null>(null);
   readings = $state.raw<Readings | null>(null);
   checks = $state.raw<Checks | null>(null);
   curves = $state.raw<readonly Curve[]>([]);
@@ -32,12 +44,15 @@ export class Answers {
   problem = $state("");
   #clip = "";
   #wantsNine = false;
+  /** The rail that is there or was asked for last. */
+  #wanted = "";
   #turn = 0;
   readonly #client = crypto.randomUUID();
   readonly #edits: Latest<EditRequest, Clip>;
   readonly #readings: Latest<EditRequest, Readings>;
   readonly #checks: Latest<EditRequest, Checks>;
   readonly #curves: Latest<CurvesRequest, Curve[]>;
+  readonly #rails: Latest<RailRequest, Rail>;
 
   constructor(
     private readonly api: Api,
@@ -67,14 +82,22 @@ export class Answers {
       (curves, request) => void (request.clip === this.#clip && (this.curves = curves)),
       (problem) => this.#quietly(problem),
     );
+    this.#rails = new Latest(
+      (request, signal) => this.#layRail(request, signal),
+      (rail, request) => void (request.clip === this.#clip && (this.rail = rail)),
+      () => (this.#wanted = ""), // the slider works without, by asking each time
+    );
   }
 
   /** Show another clip, or none; resolves when its motion is there. */
   async show(id: string): Promise<void> {
-    for (const queue of [this.#edits, this.#readings, this.#checks, this.#curves]) queue.drop();
+    for (const queue of [this.#edits, this.#readings, this.#checks, this.#curves, this.#rails]) {
+      queue.drop();
+    }
     this.#clip = id;
     this.#wantsNine = false;
-    this.original = this.made = this.nine = this.readings = this.checks = null;
+    this.#wanted = "";
+    this.original = this.made = this.nine = this.rail = this.readings = this.checks = null;
     this.curves = [];
     this.problem = "";
     if (!id) return;
@@ -126,6 +149,27 @@ export class Answers {
     } catch {
       this.#wantsNine = false; // the square works without, by asking each time
     }
+  }
+
+  /** Get the motions that a number of the stack can be blended from, when someone is about to move it. */
+  wantRail(stack: Stack, knob: Knob): void {
+    const shape = this.original?.head.shape;
+    if (!shape || this.original!.head.frames > LONGEST_RAIL) return;
+    const rest = restOf(stack, knob);
+    const wanted = JSON.stringify([knob, rest]);
+    if (wanted === this.#wanted) return;
+    this.#wanted = wanted;
+    this.#rails.ask({ clip: this.#clip, stack, knob, rest }, true);
+  }
+
+  async #layRail({ stack, knob, rest }: RailRequest, signal: AbortSignal): Promise<Rail> {
+    const points: Point[] = [];
+    for (const value of stops(stack, knob)) {
+      // In a line of its own, so that it overtakes no edit and none overtakes it.
+      const request = { ...this.#request(withValue(stack, knob, value), true), client: `${this.#client} rail` };
+      points.push({ value, motion: await this.api.edit(request, signal, this.#patience()) });
+    }
+    return { knob, rest, points };
   }
 
   /** Seconds to wait for an answer: longer clips take longer. */

@@ -4,6 +4,7 @@ import { blended, clipSource, latticeWeights, type PoseSource } from "../motion/
 import type { Clip } from "../wire";
 import type { Answers } from "./answers.svelte";
 import { share, squareOnly } from "./blending";
+import { mixture } from "./rail";
 import { isIdle } from "./stack";
 
 const known = new WeakMap<Clip, PoseSource>();
@@ -17,7 +18,7 @@ export function sourceOf(clip: Clip): PoseSource {
 
 /** What to show as edited for a stack; null where it is the original. */
 export function editedSource(answers: Answers, wanted: Stack): PoseSource | null {
-  const { original, made, nine } = answers;
+  const { original, made, nine, rail } = answers;
   if (!original || isIdle(wanted)) return null;
   if (made?.stack === wanted) return sourceOf(made.motion);
   const point = nine && squareOnly(wanted);
@@ -25,6 +26,8 @@ export function editedSource(answers: Answers, wanted: Stack): PoseSource | null
     const weights = latticeWeights(point.path, point.timing);
     return blended(nine.flat().map((clip, at) => ({ source: sourceOf(clip), weight: weights[at]! })));
   }
+  const mixed = rail && mixture(rail, made, wanted);
+  if (mixed) return blended(mixed.map(({ motion, weight }) => ({ source: sourceOf(motion), weight })));
   if (!made) return null;
   const part = share(made.stack, wanted);
   if (part === null || part === 1) return sourceOf(made.motion);

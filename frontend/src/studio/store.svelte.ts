@@ -1,5 +1,5 @@
 // The one store of the page: what is open, what is done to it, and how it is shown.
-import type { ClipInfo, Hello, Layer, Project, Stack } from "../messages";
+import type { ClipInfo, Hello, Layer, ParameterInfo, Project, Stack } from "../messages";
 import { Playback } from "../playback";
 import { Answers } from "./answers.svelte";
 import type { Api } from "./api";
@@ -8,6 +8,7 @@ import { Connection, type Reach } from "./connection";
 import * as histories from "./history";
 import { Notices } from "./notices.svelte";
 import { Keeper, Tabs, keptHere, newer, type Keeping } from "./project";
+import { withValue, type Knob } from "./rail";
 import * as stacks from "./stack";
 import { freshView, isOn, readView, type Toggle, type View } from "./view";
 
@@ -180,6 +181,31 @@ export class Studio {
     const { stack, id } = stacks.setEdit(this.stack, this.selected, edit, parameters);
     this.change(label, () => stack, done);
     this.selected = id;
+  }
+
+  /** Someone is about to move a strength: a layer's, or without one the whole's. */
+  prepareStrength(layer = ""): void {
+    this.#prepare(this.stack, { layer, name: "", low: 0, high: 2 });
+  }
+
+  /** Someone is about to move a parameter of an edit, whose layer may have to come first. */
+  prepareEdit(edit: string, info: ParameterInfo): void {
+    const { stack, id } = stacks.setEdit(this.stack, this.selected, edit, {});
+    this.prepareParameter(id, info, stack);
+  }
+
+  /** Someone is about to move a parameter of a layer. */
+  prepareParameter(layer: string, info: ParameterInfo, stack = this.stack): void {
+    const { name, kind, low, high, neutral } = info;
+    // Only amounts can be blended: halfway between two frequencies is not the one between them.
+    if (kind !== "number" || low === null || high === null || neutral === null) return;
+    const now = stacks.valueOf(stacks.find(stack, layer), info);
+    const knob = { layer, name, low, high };
+    if (typeof now === "number") this.#prepare(withValue(stack, knob, now), knob);
+  }
+
+  #prepare(stack: Stack, knob: Knob): void {
+    if (this.canEdit) this.answers.wantRail(stack, knob);
   }
 
   addLayer(kind: Layer["kind"], name: string, parameters: Layer["parameters"] = {}): void {

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
-import type { EditRequest, Hello, Project } from "../messages";
+import type { EditRequest, Hello, ParameterInfo, Project } from "../messages";
 import type { Clip } from "../wire";
 import { Failed, type Api } from "./api";
 import { Studio } from "./store.svelte";
@@ -142,4 +142,39 @@ it("says why an edit cannot be made, and shows the one before", async () => {
   await settle();
   expect(studio.notices.all.map(({ text }) => text)).toEqual(["Low must be below high"]);
   expect(studio.answers.made).toBe(before);
+});
+
+it("gets ready what a slider can be blended from, once, and leaves it to the page from then on", async () => {
+  const { studio, edits } = made();
+  await studio.begin();
+  const head = { name: "head", kind: "number", low: -60, high: 60, neutral: 0, default: 0 } as ParameterInfo;
+  studio.prepareEdit("posture", head);
+  await settle();
+  expect(edits.map(({ stack, live }) => [stack.layers[0]!.parameters["head"], live])).toEqual([
+    [-60, true],
+    [-30, true],
+    [0, true],
+    [30, true],
+    [60, true],
+  ]);
+  expect(studio.answers.rail!.points.map(({ value }) => value)).toEqual([-60, -30, 0, 30, 60]);
+  studio.setEdit("posture", { head: 30 }, true);
+  studio.prepareEdit("posture", head);
+  await settle();
+  expect(edits).toHaveLength(6); // the edit itself; the rail still fits
+  studio.setEdit("posture", { chest: 10 }, true);
+  studio.prepareEdit("posture", head);
+  await settle();
+  expect(studio.answers.rail!.points.map(({ value }) => value)).toEqual([-60, -15, 30, 45, 60]);
+});
+
+it("lays no rail for what cannot be blended: seeds, frequencies, and curves", async () => {
+  const { studio, edits } = made();
+  await studio.begin();
+  const info = { name: "frequency", kind: "number", low: 1, high: 9, neutral: null, default: 2 };
+  studio.prepareEdit("tremor", info as ParameterInfo);
+  studio.prepareEdit("tremor", { ...info, kind: "whole", neutral: 0 } as ParameterInfo);
+  studio.prepareEdit("tremor", { ...info, neutral: 1, default: [[0, 1]] } as unknown as ParameterInfo);
+  await settle();
+  expect(edits).toEqual([]);
 });
