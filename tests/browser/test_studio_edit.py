@@ -285,7 +285,7 @@ class TestSquare:
         studio.page.mouse.up()
         studio.settle()
         answered = places(studio)
-        assert np.abs(original - answered).max() > 0.04
+        assert np.abs(original - answered).max() > 0.01
         np.testing.assert_allclose(blended, answered, atol=0.001)
 
 
