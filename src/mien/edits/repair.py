@@ -20,7 +20,7 @@ from ..kinematics.balancing import astray, balanced
 from ..kinematics.body import Body
 from ..kinematics.capsules import capsules
 from ..kinematics.contacts import detect_points, spans
-from ..kinematics.joint_angles import joint_angles
+from ..kinematics.joint_angles import hinge_axes, joint_angles
 from ..kinematics.legs import Placed
 from ..kinematics.limiting import limited
 from ..kinematics.raising import lowest, raised
@@ -98,13 +98,14 @@ def repair(
 def _mends(original: Motion, body: Body) -> Mapping[What, Mend]:
     """Return how each thing is measured and mended on edits of ``original``."""
     shape, start = capsules(original, body), Placed.of(original, body)
+    hinges = hinge_axes(original, body, start.rotations)
     contacts = detect_points(start.feet, body, original.frame_time)
 
     def depth(pose: Placed) -> Array:
         return np.maximum(shape.contacts(pose.rotations, pose.positions).depth, 0.0)
 
     def beyond(pose: Placed) -> Array:
-        return joint_angles(pose.motion, body, pose.rotations).beyond()
+        return joint_angles(pose.motion, body, pose.rotations, axes=hinges).beyond()
 
     def sunk(pose: Placed) -> Array:
         return np.maximum(body.floor - lowest(pose.motion, body, pose.positions), 0.0)[:, None]
@@ -114,7 +115,7 @@ def _mends(original: Motion, body: Body) -> Mapping[What, Mend]:
 
     return {
         "collision": Mend(depth, lambda m, allowed: separated(m, body, allowed)),
-        "limits": Mend(beyond, lambda m, allowed: limited(m, body, allowed)),
+        "limits": Mend(beyond, lambda m, allowed: limited(m, body, allowed, axes=hinges)),
         "floor": Mend(sunk, lambda m, allowed: raised(m, body, contacts, allowed[:, 0])),
         "balance": Mend(outside, lambda m, allowed: balanced(m, body, contacts, allowed[:, 0])),
     }

@@ -1,6 +1,6 @@
 """How far each joint turns, in anatomy's terms: read from rotations that no skeleton's axes need to match."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Self
 
@@ -84,7 +84,7 @@ class Joints:
         """Return the unit axis (3,) of each hinge: that of the plane the clip shows it to bend in."""
         return [_axis(seen[:, h.row], h) for h in self.hinges]
 
-    def angles(self, seen: Array, axes: list[Array]) -> Array:
+    def angles(self, seen: Array, axes: Sequence[Array]) -> Array:
         """Return flexion, abduction and rotation (T, R, 3) in radians; of hinges about their ``axes``."""
         twist = quaternion.twist(seen, self.body.up)
         swing = quaternion.log(quaternion.multiply(seen, quaternion.conjugate(twist)))
@@ -104,18 +104,34 @@ class Joints:
         return out
 
 
-def joint_angles(motion: Motion, body: Body, rotations: Array) -> JointAngles:
+def joint_angles(
+    motion: Motion, body: Body, rotations: Array, *, axes: Sequence[Array] | None = None
+) -> JointAngles:
     """Return the angles of every joint that ``body`` has, from the world rotations (T, J, 4) of ``motion``.
 
-    Rotation is positive outward (to the left, of the trunk); flexion of a hinge is measured in the plane that
-    the clip shows it to bend in.
+    Rotation is positive outward (to the left, of the trunk); flexion of a hinge is measured about its axis
+    of ``axes``, as ``hinge_axes`` gives them, or in the plane that the clip shows it to bend in.
     """
+    joints, seen = _seen(motion, body, rotations)
+    return JointAngles(joints.names, np.degrees(joints.angles(seen, axes or joints.axes(seen))))
+
+
+def hinge_axes(motion: Motion, body: Body, rotations: Array) -> list[Array]:
+    """Return the unit axis (3,) of each hinge, of the plane that the clip shows it to bend in.
+
+    An edit is measured about the axes of the clip it was made from: a body keeps its hinges.
+    """
+    joints, seen = _seen(motion, body, rotations)
+    return joints.axes(seen)
+
+
+def _seen(motion: Motion, body: Body, rotations: Array) -> tuple[Joints, Array]:
+    """Return the joints and how each is turned away from the stance (T, R, 4)."""
     joints = Joints.of(motion, body)
     turned = quaternion.multiply(
         quaternion.conjugate(rotations[:, joints.bases]), rotations[:, joints.joints]
     )
-    seen = joints.seen(turned)
-    return JointAngles(joints.names, np.degrees(joints.angles(seen, joints.axes(seen))))
+    return joints, joints.seen(turned)
 
 
 def _base(name: str, body: Body) -> int:

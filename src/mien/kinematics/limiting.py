@@ -1,5 +1,7 @@
 """Turn joints back that are further than they may be, softly: swing and twist, each on the shortest way."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ..motion import Motion
@@ -17,11 +19,14 @@ ROUNDS = 12  # as what is smoothed gets smaller, and some is left
 RAISED = 20.0  # degrees below OVERHEAD in which the limits of swing and twist fade
 
 
-def limited(motion: Motion, body: Body, allowed: Array) -> Motion:
+def limited(
+    motion: Motion, body: Body, allowed: Array, *, axes: Sequence[Array] | None = None
+) -> Motion:
     """Return the motion with no joint more than ``allowed`` degrees, and 2 softly, beyond its range.
 
     ``allowed`` (T, R) or (1, R), for the joints of ``joint_angles``. Only joints beyond it are turned. Of a
-    limb raised overhead, whose swing and twist say little, nothing is.
+    limb raised overhead, whose swing and twist say little, nothing is. Hinges bend about ``axes``
+    (``joint_angles.hinge_axes``), or as the motion shows them to.
     """
     joints = Joints.of(motion, body)
     allowed = np.broadcast_to(allowed, (len(motion), len(joints.names)))
@@ -29,7 +34,7 @@ def limited(motion: Motion, body: Body, allowed: Array) -> Motion:
     # What many smooth changes leave is little, and is taken as it is.
     for sigma in (*[CALM / motion.frame_time] * ROUNDS, 0.0):
         seen = joints.seen(_turned(rotations, joints, parents))
-        back = _back(seen, joints, joints.axes(seen), allowed)
+        back = _back(seen, joints, axes or joints.axes(seen), allowed)
         wrong = joints.joints[back.any(axis=(0, 2))]
         if not len(wrong):
             break
@@ -73,7 +78,7 @@ def _turned(local: Array, joints: Joints, parents: Integers) -> Array:
     return out
 
 
-def _back(seen: Array, joints: Joints, axes: list[Array], allowed: Array) -> Array:
+def _back(seen: Array, joints: Joints, axes: Sequence[Array], allowed: Array) -> Array:
     """Return the rotation vectors (T, R, 3), in each joint's own axes, that turn it back to what it may."""
     angles = np.degrees(joints.angles(seen, axes))
     hinges = {h.row: (h.below, axis) for h, axis in zip(joints.hinges, axes, strict=True)}

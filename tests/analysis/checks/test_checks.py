@@ -288,3 +288,14 @@ def test_ninety_five_of_a_hundred_captures_pass(captures: list[Report], name: st
     assert len(captures) > 200
     passed = np.mean([r[name].passed for r in captures])
     assert passed >= 0.95
+
+
+def test_a_pose_of_the_source_is_judged_as_there_whatever_the_rest_of_the_clip_does() -> None:
+    """Elbows bend about the axes of the source's body; an edit that bends them otherwise moves no hinge."""
+    source = turned(samples.wave(seconds=6.0).motion, "right_elbow", "left", np.full(361, 60.0))
+    edited = turned(source, "right_elbow", "left", np.where(source.times < 4.0, 40.0, 0.0))
+    late = edited.times > 4.1
+    np.testing.assert_array_equal(edited.rotations[late], source.rotations[late])
+    limits, without = (check(m, against=source)["limits"] for m in (edited, source))
+    np.testing.assert_allclose(limits.over[late], without.over[late], atol=1e-9)
+    assert limits.over[~late].max() > without.over[~late].max() + 5.0, "the other plane is seen where it is"

@@ -10,7 +10,7 @@ from .scene import Scene
 
 def measure(scene: Scene) -> Measured:
     """Return how far beyond its range each joint is (T, R), in degrees."""
-    found = joint_angles(scene.motion, scene.body, scene.rotations)
+    found = joint_angles(scene.motion, scene.body, scene.rotations, axes=scene.hinges)
     return Measured(found.beyond(), found.names)
 
 

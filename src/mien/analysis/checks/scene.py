@@ -10,6 +10,7 @@ from ...kinematics.body import Body
 from ...kinematics.contacts import Contacts, detect_points, foot_points
 from ...kinematics.dynamics import Dynamics, dynamics
 from ...kinematics.fk import end_positions, world
+from ...kinematics.joint_angles import hinge_axes
 from ...kinematics.lead_in import lead_in
 from ...motion import Motion
 from ...typing import Array
@@ -58,6 +59,11 @@ class Scene:
     def ends(self) -> Array:
         """Where the end sites are (T, E, 3)."""
         return end_positions(self.motion, self.rotations, self.positions)
+
+    @cached_property
+    def hinges(self) -> list[Array]:
+        """The axes (3,) that elbows and knees bend about: those of the source, as a body keeps its hinges."""
+        return self.source.hinges if self.source else hinge_axes(self.motion, self.body, self.rotations)
 
     @cached_property
     def dynamics(self) -> Dynamics:
