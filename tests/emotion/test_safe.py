@@ -1,11 +1,13 @@
 """An edit that cannot break a body: what passes is left alone, what breaks is mended or taken back."""
 
+import re
+
 import numpy as np
 import pytest
 
 import mien
 from mien import samples
-from mien.emotion.safe import limbs_of, mended, safe
+from mien.emotion.safe import _when, limbs_of, mended, safe
 from mien.kinematics.body import Body
 from mien.motion import Motion
 from mien.recipe import Recipe, Step
@@ -73,7 +75,7 @@ def test_it_says_what_was_taken_back() -> None:
     made = mien.edit(samples.walk(seconds=3.0).motion, "s0/angry")
     said = " and ".join(mended(made))
     assert "left arm" in said
-    assert "% of the original between" in said
+    assert re.search(r"% of the original at \d\.\d to \d\.\d", said)
     assert "jitter" in said
 
 
@@ -127,3 +129,10 @@ def test_the_last_resort_is_the_original_as_a_whole(monkeypatch: pytest.MonkeyPa
     assert "all along" in mended(made)[0]
     if made.history[-1].parameters["amount"] == 1.0:
         np.testing.assert_allclose(made.rotations, still.rotations, atol=1e-12)
+
+
+def test_stretches_that_were_taken_back_are_told_one_by_one() -> None:
+    curve = [(0.0, 0.0), (1.0, 0.0), (1.3, 1.0), (1.6, 0.0), (5.0, 0.0), (5.5, 0.3), (6.0, 0.0)]
+    assert _when(curve) == "at 1.0 to 1.6, 5.0 to 6.0 s"
+    many = [(float(t), float(t % 2)) for t in range(12)]
+    assert _when(many) == "at 0.0 to 2.0, 2.0 to 4.0, 4.0 to 6.0 s and 3 more times"

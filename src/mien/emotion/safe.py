@@ -5,7 +5,7 @@ steps of its history: ``repair``, then ``restore`` for the parts and times that 
 ``foot_plant`` where legs were restored. So a history replays without looking again.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ..analysis.checks.report import Report, compare_scenes, measured
 from ..analysis.checks.scene import Scene
 from ..curve import evaluate, is_curve
 from ..edits import pipeline
+from ..kinematics.contacts import spans
 from ..motion import Motion
 from ..recipe import Step
 from ..typing import Array, Mask
@@ -25,6 +26,7 @@ AROUND_FORCES: Mapping[str, float] = dict.fromkeys(("balance", "torque", "ground
 RAMP = 0.3  # seconds from the edit to the original and back
 RAMP_BODY = 0.8  # of trunk and legs, whose weight needs forces
 ROUNDS = 12
+TOLD = 3  # stretches of time that are told one by one
 LAST = "last resort"
 # What a name in a finding belongs to. A leg alone cannot be restored: hips and feet say where it is.
 ARM = ("hand", "wrist", "forearm", "upper_arm", "elbow", "shoulder", "clavicle")
@@ -52,16 +54,23 @@ def mended(motion: Motion) -> tuple[str, ...]:
             said.append(f"the whole body: {100 * step.parameters['amount']:.0f} % of the original all along")
         elif is_curve(step.parameters["amount"]):
             curve = step.parameters["amount"]
-            times = [t for t, amount in curve if amount > 0.0]
             most = max(amount for _, amount in curve)
             what = "the whole body" if set(step.parts) >= set(LIMBS) else " and ".join(step.parts)
             said.append(
-                f"{what.replace('_', ' ')}: up to {100 * most:.0f} % of the original between {times[0]:.1f} "
-                f"and {times[-1]:.1f} s ({step.parameters['why']})"
+                f"{what.replace('_', ' ')}: up to {100 * most:.0f} % of the original {_when(curve)} "
+                f"({step.parameters['why']})"
             )
     if said and _share(motion) > 0.5:
         said.append("most of this edit was taken back; --no-safe keeps it, with what breaks")
     return tuple(said)
+
+
+def _when(curve: Sequence[tuple[float, float]]) -> str:
+    """Say when a curve of (seconds, amount) is above 0: the first stretches, and how many more."""
+    times, amounts = np.array(curve).T
+    ends = [(times[max(a - 1, 0)], times[min(b, len(times) - 1)]) for a, b in spans(amounts > 0.0)]
+    told = ", ".join(f"{start:.1f} to {stop:.1f}" for start, stop in ends[:TOLD])
+    return f"at {told} s" + (f" and {len(ends) - TOLD} more times" if len(ends) > TOLD else "")
 
 
 def _share(motion: Motion) -> float:

@@ -19,9 +19,7 @@ ROUNDS = 12  # as what is smoothed gets smaller, and some is left
 RAISED = 20.0  # degrees below OVERHEAD in which the limits of swing and twist fade
 
 
-def limited(
-    motion: Motion, body: Body, allowed: Array, *, axes: Sequence[Array] | None = None
-) -> Motion:
+def limited(motion: Motion, body: Body, allowed: Array, *, axes: Sequence[Array] | None = None) -> Motion:
     """Return the motion with no joint more than ``allowed`` degrees, and 2 softly, beyond its range.
 
     ``allowed`` (T, R) or (1, R), for the joints of ``joint_angles``. Only joints beyond it are turned. Of a
