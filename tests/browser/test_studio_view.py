@@ -115,6 +115,13 @@ def test_a_joint_is_picked_and_drawn(edited: Studio) -> None:
     curves = edited.page.get_by_role("group", name="Curves")
     assert curves.get_by_role("checkbox", name="joint:Head").is_checked()
     assert "joint:Head" in edited.page.get_by_role("region", name="Timeline", exact=True).inner_text()
+    menu = edited.page.get_by_role("combobox", name="Speed of a joint")
+    assert menu.input_value() == "Head"
+    menu.select_option("LeftHand")  # as people do who pick nothing by mouse
+    edited.settle()
+    assert curves.get_by_role("checkbox", name="joint:LeftHand").is_checked()
+    assert not curves.get_by_role("checkbox", name="joint:Head").count(), "one joint at a time"
+    assert "joint:LeftHand" in edited.page.get_by_role("region", name="Timeline", exact=True).inner_text()
     curves.get_by_text("valence").click()
     edited.settle()
     assert re.search("valence\n", edited.page.get_by_role("region", name="Timeline", exact=True).inner_text())
