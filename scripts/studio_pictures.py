@@ -126,7 +126,7 @@ def shot(page: Any, name: str) -> Image.Image:
     """Return the picture of the page, or of the disc alone."""
     whole = page.get_by_role("tabpanel") if name == "disc" else page
     picture = Image.open(BytesIO(whole.screenshot()))
-    return picture.convert("RGB").quantize(160, dither=Image.Dither.NONE)
+    return picture.convert("RGB").quantize(256, dither=Image.Dither.FLOYDSTEINBERG)
 
 
 def make_all(folder: Path, names: list[str]) -> None:
@@ -141,8 +141,7 @@ def make_all(folder: Path, names: list[str]) -> None:
         for name in names:
             make, theme = PICTURES[name]
             command = [sys.executable, "-m", "mien", "studio", "--no-browser", "--workspace", workspace]
-            server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-            try:
+            with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
                 assert server.stdout
                 page = browser.new_page(
                     viewport=SIZE | ({"height": 1180} if name == "disc" else {}),
@@ -157,9 +156,7 @@ def make_all(folder: Path, names: list[str]) -> None:
                 page.wait_for_timeout(400)
                 shot(page, name).save(folder / f"{name}.png", optimize=True)
                 page.close()
-            finally:
                 server.terminate()
-                server.wait(timeout=30)
             for kept in ("clips.json", "project.json"):
                 Path(workspace, kept).unlink(missing_ok=True)
         browser.close()
