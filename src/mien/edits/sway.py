@@ -76,6 +76,7 @@ def sway(
     stance = neutral_world(motion, body)[0]
 
     def added(joint: int, tilt: float, turn: float) -> tuple[Array, Array]:
+        """Return the turns (T, 3) about the front and about up that gains on a joint's tilt and turn add."""
         side = quaternion.rotate(quaternion.multiply(turned[:, joint], _back(stance[joint])), body.left)
         return _added(side, body, motion.frame_time, frames, tilt, turn)
 

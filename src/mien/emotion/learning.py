@@ -163,6 +163,7 @@ def scores(takes: Sequence[Take], places: Mapping[str, Point]) -> dict[str, floa
     hits: dict[str, list[float]] = {}
 
     def note(name: str, value: float) -> None:
+        """Keep how well one take was read."""
         hits.setdefault(name, []).append(float(value))
 
     for content in sorted({take.content for take in takes}):
