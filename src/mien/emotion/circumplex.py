@@ -17,13 +17,6 @@ import numpy as np
 from ..errors import RecipeError, unknown
 
 TABLES = ("ratings", "circle")
-# The twelve emotions of Aristidou et al. 2017, three a quadrant, as far as the text names them.
-TWELVE = (
-    *("afraid", "angry", "annoyed"),
-    *("excited", "happy", "pleased"),
-    *("satisfied", "relaxed", "tired"),
-    *("bored", "sad", "miserable"),
-)
 # Numbered as Aristidou et al. 2017, table 4: clockwise from the upper left.
 QUADRANTS: Mapping[str, str] = MappingProxyType(
     {
