@@ -1,7 +1,10 @@
 """Shared fixtures. Real clips are other people's and stay outside the project; tests skip without them."""
 
+import importlib.util
 import os
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -26,6 +29,19 @@ def data() -> Path:
     if not DATA.is_dir():
         pytest.skip("no real clips: set MIEN_DATA to a folder that has them")
     return DATA
+
+
+@pytest.fixture(scope="session")
+def script() -> Callable[[str], ModuleType]:
+    """Load one of the project's scripts by its name."""
+
+    def load(name: str) -> ModuleType:
+        spec = importlib.util.spec_from_file_location(name, ROOT / "scripts" / f"{name}.py")
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+
+    return load
 
 
 @pytest.fixture

@@ -1,8 +1,8 @@
 """Documents say what the code does: METHODS.md and its pages, the list of public names, the presets."""
 
 import importlib
-import importlib.util
 import re
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -22,12 +22,9 @@ NAMESPACES = ("rotations", "signal", "kinematics", "edits", "analysis", "emotion
 
 
 @pytest.fixture(scope="module")
-def generator() -> ModuleType:
+def generator(script: Callable[[str], ModuleType]) -> ModuleType:
     """The script that writes the generated documents."""
-    spec = importlib.util.spec_from_file_location("methods", ROOT / "scripts" / "methods.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("methods")
 
 
 def text(name: str) -> str:
