@@ -12,11 +12,11 @@ that of the worse clip, and the jerk of the ankles over that of the jerkier clip
 
 import argparse
 import os
-import time
 import tracemalloc
 from pathlib import Path
 
 import numpy as np
+from clock import best
 from feet import jerk, lowest, skating
 from scipy.spatial.distance import cdist
 
@@ -42,16 +42,6 @@ SETS += [
     ("cmu_daz", "0[27]_*", "02_01*"),
     ("cmu_daz", "12_*", "02_01*"),
 ]
-
-
-def best(job, *, runs=5):
-    """Return the shortest time of some runs in milliseconds."""
-    took = []
-    for _ in range(runs):
-        start = time.perf_counter()
-        job()
-        took.append(time.perf_counter() - start)
-    return 1000 * min(took)
 
 
 def twin(a, b, steps=((1, 1), (1, 2), (2, 1)), band=0.2):

@@ -9,25 +9,15 @@ Beside it stands the time with what makes them safe.
 """
 
 import argparse
-import time
 import tracemalloc
 
 import numpy as np
+from clock import best
 from scipy.spatial.transform import Rotation
 
 import mien
 from mien.kinematics.fk import fk
 from mien.samples import walk
-
-
-def best(job, *, runs=5):
-    """Return the shortest time of some runs in milliseconds."""
-    took = []
-    for _ in range(runs):
-        start = time.perf_counter()
-        job()
-        took.append(time.perf_counter() - start)
-    return 1000 * min(took)
 
 
 def peak(job):

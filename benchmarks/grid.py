@@ -16,7 +16,8 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
-from edits import best, peak
+from clock import best
+from edits import peak
 from feet import lowest
 
 import mien

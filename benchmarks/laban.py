@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from clock import best
 from scipy.spatial import ConvexHull
 
 import mien
@@ -27,15 +28,6 @@ from mien.kinematics.landmarks import INDEX, landmarks
 from mien.samples import knock, turn, walk, wave
 
 CLIPS, SECONDS, RUNS = 108, 599 / 30.0, 5
-
-
-def best(job, *, runs=RUNS):
-    took = []
-    for _ in range(runs):
-        start = time.perf_counter()
-        job()
-        took.append(time.perf_counter() - start)
-    return 1e3 * min(took)
 
 
 def processor():

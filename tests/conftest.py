@@ -1,10 +1,16 @@
 """Shared fixtures. Real clips are other people's and stay outside the project; tests skip without them."""
 
+import importlib.util
 import os
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
+import numpy as np
 import pytest
 from hypothesis import settings
+
+from mien.motion import Motion, Skeleton
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = Path(os.environ.get("MIEN_DATA", ROOT.parent / "shared" / "data"))
@@ -23,3 +29,25 @@ def data() -> Path:
     if not DATA.is_dir():
         pytest.skip("no real clips: set MIEN_DATA to a folder that has them")
     return DATA
+
+
+@pytest.fixture(scope="session")
+def script() -> Callable[[str], ModuleType]:
+    """Load one of the project's scripts by its name."""
+
+    def load(name: str) -> ModuleType:
+        spec = importlib.util.spec_from_file_location(name, ROOT / "scripts" / f"{name}.py")
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+
+    return load
+
+
+@pytest.fixture
+def rope() -> Motion:
+    """A motion of something that is no body."""
+    offsets = np.array([[0.0, 90.0, 0.0], [0.0, -10.0, 0.0], [0.0, -10.0, 0.0]])
+    skeleton = Skeleton(("A", "B", "C"), np.array([-1, 0, 1]), offsets)
+    rotations = np.tile([0.0, 0.0, 0.0, 1.0], (30, 3, 1))
+    return Motion(skeleton, rotations, np.tile(offsets, (30, 1, 1)), 1 / 30, name="rope")

@@ -54,6 +54,11 @@ class Job:
     sidecar: bool = True
     force: bool = False
 
+    @property
+    def files(self) -> list[Path]:
+        """The files that are written: the clip, and what was done where that is asked for."""
+        return [self.target, *([sidecar_of(self.target)] if self.sidecar else [])]
+
 
 @dataclass(frozen=True)
 class Outcome:

@@ -6,13 +6,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 import mien
 from mien import samples
 from mien.formats import bvh
-from mien.motion import Motion, Skeleton
 
 from .driving import Server, Studio
 
@@ -132,12 +130,3 @@ def walking(studio: Studio, clips: Path) -> Studio:
     """The page with a walk, nothing done to it yet."""
     studio.open(clips / "walk.bvh")
     return studio
-
-
-@pytest.fixture
-def rope() -> Motion:
-    """A motion of something that is no body."""
-    offsets = np.array([[0.0, 90.0, 0.0], [0.0, -10.0, 0.0], [0.0, -10.0, 0.0]])
-    skeleton = Skeleton(("A", "B", "C"), np.array([-1, 0, 1]), offsets)
-    rotations = np.tile([0.0, 0.0, 0.0, 1.0], (30, 3, 1))
-    return Motion(skeleton, rotations, np.tile(offsets, (30, 1, 1)), 1 / 30, name="rope")

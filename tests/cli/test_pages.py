@@ -66,7 +66,7 @@ def test_commands_work_line_by_line_and_python_twice(
     monkeypatch.chdir(tmp_path)
     page = ROOT / name
     if name == "README.md":
-        run("demo")  # the last words of the line that installs mien
+        assert run("demo").exit_code == 0  # the last words of the line that installs mien
     if name in ("docs/presets.md", "docs/grid.md"):
         mien.save(samples.walk(seconds=1.0, fps=30.0).motion, "walk.bvh")
     if name in ("docs/laban.md", "docs/emotion.md"):
@@ -78,9 +78,10 @@ def test_commands_work_line_by_line_and_python_twice(
     if name == "docs/blend.md":
         for clip, emotion in (("neutral", {}), ("sad", {"cadence": 1.4}), ("proud", {"step_length": 0.8})):
             mien.save(samples.walk(seconds=3.0, fps=30.0, **emotion).motion, f"{clip}.bvh")
-    for block in blocks(page, "console"):
-        for line in block.splitlines():
-            done(line, run)
+    lines = [line for block in blocks(page, "console") for line in block.splitlines()]
+    assert lines, "no commands were found on the page"
+    for line in lines:
+        done(line, run)
     for _ in range(2):
         names: dict[str, object] = {}
         for block in blocks(page, "python"):

@@ -72,6 +72,7 @@ def test_what_stands_still_stands() -> None:
     walk = samples.walk(seconds=4.0, unit="m").motion
     body, contacts = Body.of(walk), detect(walk)
     before = foot_points(walk, body, *world(walk))
+    assert all(len(contacts.spans(foot)) > 1 for foot in range(2))
     for rate in (0.7, 1.4):
         after = tempo(walk, rate=rate)
         feet = foot_points(after, body, *world(after))

@@ -2,8 +2,16 @@
 
 import pytest
 
-from mien.emotion.circumplex import QUADRANTS, TABLES, TWELVE, clamp, nearest, point, quadrant, source, words
+from mien.emotion.circumplex import QUADRANTS, TABLES, clamp, nearest, point, quadrant, source, words
 from mien.errors import RecipeError
+
+# The twelve emotions of Aristidou et al. 2017, three a quadrant, as far as the text names them.
+TWELVE = (
+    *("afraid", "angry", "annoyed"),
+    *("excited", "happy", "pleased"),
+    *("satisfied", "relaxed", "tired"),
+    *("bored", "sad", "miserable"),
+)
 
 
 @pytest.mark.parametrize("table", TABLES)

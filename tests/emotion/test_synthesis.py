@@ -163,14 +163,14 @@ def test_very_short_clips(frames: int, method: str) -> None:
 
 
 def sound(motion: Motion, place: Point, method: str) -> None:
-    """No NaN, bones as long as they were, and feet that slide no more than they did."""
+    """Something is done: no NaN, bones as long as they were, and feet that slide no more than they did."""
     recipe = synthesise(motion, place, method=method)
     done = mien.apply(motion, recipe)
     assert np.isfinite(done.rotations).all()
     assert np.isfinite(done.translations).all()
+    assert not (len(done) == len(motion) and np.allclose(done.rotations, motion.rotations, atol=1e-3))
     failed = mien.check(done).failed
     assert not {"foot_slide", "floor", "bones"} & set(failed), failed
-    assert set(recipe.steps[0].parameters) if recipe.steps else True
 
 
 @pytest.mark.parametrize("path", REAL)

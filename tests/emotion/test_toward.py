@@ -114,6 +114,7 @@ def test_the_unit_of_an_example_does_not_matter(walk: Motion) -> None:
     skeleton = replace(bent.skeleton, offsets=0.0254 * bent.skeleton.offsets)
     inches = Motion(skeleton, bent.rotations, 0.0254 * bent.translations, bent.frame_time)
     one, other = (Like(example, walk).recipe(walk) for example in (bent, inches))
+    assert [step.edit for step in one.steps][:1] == ["posture"]
     for first, second in zip(one.steps, other.steps, strict=True):
         assert first.edit == second.edit
         for key in ("hips_height", "hips_forward", "arms"):

@@ -78,6 +78,7 @@ def test_a_loop_has_landings_over_its_seam():
 @pytest.mark.parametrize("make", [samples.knock, samples.punch, samples.walk, samples.jump])
 def test_stretches_are_in_order_apart_and_neither_short_nor_long(make):
     motion = make().motion
+    assert found(motion)
     for longest in (0.3, LONGEST):
         for stretches in found(motion, longest=longest).values():
             starts, ends = stretches.T / motion.fps
@@ -105,6 +106,7 @@ def test_neither_unit_axis_nor_heading_matter():
     forms = ({}, {"unit": "inch"}, {"up": "z"}, {"heading": 2.0})
     for make in (samples.punch, samples.walk):
         one, *others = (found(make(**form).motion) for form in forms)
+        assert one
         for other in others:
             assert set(other) == set(one)
             for limb, stretches in one.items():

@@ -126,7 +126,9 @@ def test_where_an_actor_stands_and_faces_does_not_matter() -> None:
     here, there = still(), still(heading=2.5)
     shifted = there.translations + np.where(np.arange(len(there.skeleton)) == 0, 300.0, 0.0)[:, None]
     changed = posture(there.with_(translations=shifted), pose=str(SAD), fade=False, method="body_fixed")
-    for segment, turn in pose_between(here, changed).turns.items():
+    found = pose_between(here, changed).turns
+    assert set(found) >= set(SAD.turns)
+    for segment, turn in found.items():
         np.testing.assert_allclose(turn, SAD.turns.get(segment, (0, 0, 0)), atol=1e-6, err_msg=segment)
 
 

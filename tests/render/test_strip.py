@@ -94,7 +94,14 @@ def test_a_ghost_of_the_same_motion_is_hidden_even_when_it_stood_elsewhere(walk)
 
 
 def test_a_ghost_of_another_length_is_taken_at_the_same_share(walk):
-    strip(walk, against=walk[:10], poses=3, width=300)
+    """Twice as many frames of the same movement show the same ghost, half of the movement another."""
+    wave = samples.wave(seconds=2.0, fps=60.0).motion
+    one, twice, half = (
+        strip(wave[:31], against=ghost.with_(name="ghost"), poses=3, width=600, views=("front",), title="")
+        for ghost in (wave[::2], samples.wave(seconds=2.0, fps=120.0).motion, wave[:61])
+    )
+    differ = [(np.abs(pixels(one) - pixels(other)).max(axis=2) > 24).mean() for other in (twice, half)]
+    assert differ[0] < 0.002 < differ[1]
 
 
 def test_the_same_motion_gives_the_same_bytes(walk):

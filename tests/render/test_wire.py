@@ -1,7 +1,7 @@
 """Motions as bytes for the page, and the fixtures by which the page's own tests compare with Python."""
 
-import importlib.util
 import json
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -70,12 +70,9 @@ def test_a_motion_takes_the_floor_of_what_it_was_made_from(walk: Motion) -> None
 
 
 @pytest.fixture(scope="module")
-def writer() -> ModuleType:
+def writer(script: Callable[[str], ModuleType]) -> ModuleType:
     """The script that writes the fixtures."""
-    spec = importlib.util.spec_from_file_location("fixtures", ROOT / "scripts" / "frontend_fixtures.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("frontend_fixtures")
 
 
 def test_fixtures_of_the_page_are_current_and_small(writer: ModuleType) -> None:

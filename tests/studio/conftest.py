@@ -13,7 +13,6 @@ pytest.importorskip("httpx2", reason="httpx2 is not installed")
 from starlette.testclient import TestClient
 
 from mien.formats import bvh
-from mien.motion import Motion, Skeleton
 from mien.samples import walk
 from mien.studio.security import hosts_of
 from mien.studio.server import make_app
@@ -53,15 +52,6 @@ def clip(client: TestClient) -> str:
     """The id of a walk that is open."""
     data = bvh.render(walk(seconds=2.5).motion)
     return client.post("/api/clips", params={"name": "walk.bvh"}, content=data).json()["id"]
-
-
-@pytest.fixture
-def rope() -> Motion:
-    """A motion of something that is no body."""
-    offsets = np.array([[0.0, 90.0, 0.0], [0.0, -10.0, 0.0], [0.0, -10.0, 0.0]])
-    skeleton = Skeleton(("A", "B", "C"), np.array([-1, 0, 1]), offsets)
-    rotations = np.tile([0.0, 0.0, 0.0, 1.0], (30, 3, 1))
-    return Motion(skeleton, rotations, np.tile(offsets, (30, 1, 1)), 1 / 30, name="rope")
 
 
 @pytest.fixture(scope="session")

@@ -19,6 +19,7 @@ def curve(motion: Motion, name: str, *, body: Body | None = None) -> tuple[str, 
     """Return the unit of a curve and its values (T,): one of ``CURVES``, or ``joint:NAME``.
 
     Heights are above the floor of ``body``, that of the motion unless given. Speeds are of all three axes.
+    Both are metric by ``body.metres_per_unit``, which is an estimate.
     Raises ``MienError`` for another name, ``BodyError`` where no body is found.
 
     >>> from mien.samples import walk

@@ -116,8 +116,7 @@ def manner_features(change: Change) -> Array:
     values: dict[str, float] = {f"{s}_pitch": turns.get(s, (0.0, 0.0, 0.0))[0] for s in MIDDLE}
     for role in SIDED:
         sides = [np.array(turns.get(f"{side}_{role}", (0.0, 0.0, 0.0))) for side in ("left", "right")]
-        # Seen in a mirror a turn keeps its pitch, and the others change sign. Out is to the left for the
-        # left.
+        # Seen in a mirror a turn keeps its pitch, and the others change sign; for the left, out is left.
         both = 0.5 * (sides[0] + sides[1] * [1.0, -1.0, -1.0])
         values |= {f"{role}_{axis}": float(v) for axis, v in zip(AXES, both, strict=True)}
     values["hips_height"] = 100.0 * change.hips_height

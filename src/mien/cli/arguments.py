@@ -19,6 +19,26 @@ DryRun = Annotated[bool, typer.Option("--dry-run", "-n", help="Say what would be
 Json = Annotated[bool, typer.Option("--json", help="Print JSON for programs.")]
 Fps = Annotated[float | None, typer.Option(help="Frames a second, where the clip's own rate is wrong.")]
 Salvage = Annotated[bool, typer.Option("--salvage", help="Take what is whole from a damaged clip.")]
+Jobs = Annotated[
+    int, typer.Option("--jobs", "-j", min=0, help="Processes to share the clips; 0 takes every core.")
+]
+Neutral = Annotated[
+    Path | None,
+    typer.Option(
+        help="A clip of the same person, best of the same action, to read the difference from; with --labels "
+        "the label of such clips.",
+    ),
+]
+Labels = Annotated[
+    str,
+    typer.Option(
+        help="How each clip finds its own neutral one, of the same content and performer: a table (.csv) or "
+        "a pattern for file names, as for mien learn.",
+    ),
+]
+Model = Annotated[
+    Path | None, typer.Option(help="A model that mien learn wrote, in place of the shipped one.")
+]
 MapFile = Annotated[
     Path | None,
     typer.Option("--map", help="A map file, for joints that are not found: which joint is the knee."),

@@ -102,7 +102,7 @@ def _source(
 def _show(path: Path, report: "Report") -> None:
     """Print a table of all checks, and where those that failed did."""
     how = "against its source" if report.against else "by itself"
-    rows = [_row(f, report.against) for f in report.findings]
+    rows = [_row(f) for f in report.findings]
     columns = ("check", "", "value", "source", "allowed", "")
     show_table(columns, rows, title=f"{path}, {how}: {_said(report)}", numbers=2)
     failed = [f for f in report.findings if not f.passed]
@@ -127,7 +127,7 @@ def _said(report: "Report") -> str:
     return f"{len(report.failed)} of {len(report.findings)} checks failed"
 
 
-def _row(finding: "Finding", against: bool) -> tuple[str, ...]:
+def _row(finding: "Finding") -> tuple[str, ...]:
     about = finding.check
     return (
         about.name,

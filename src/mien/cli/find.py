@@ -9,7 +9,7 @@ import typer
 
 from ..errors import MienError
 from . import arguments as a
-from .analyze import Jobs, Labels, Neutral, end, read_all
+from .analyze import finish, read_all
 from .report import located, number, show_json, show_table
 
 if TYPE_CHECKING:
@@ -30,12 +30,10 @@ def find(
         float | None, typer.Option(min=-1.0, max=1.0, help="And calm -1 to intense 1.")
     ] = None,
     top: Annotated[int, typer.Option(min=1, help="How many clips to name.")] = 10,
-    neutral: Neutral = None,
-    labels: Labels = "",
-    model: Annotated[
-        Path | None, typer.Option(help="A model that mien learn wrote, in place of the shipped one.")
-    ] = None,
-    jobs: Jobs = 0,
+    neutral: a.Neutral = None,
+    labels: a.Labels = "",
+    model: a.Model = None,
+    jobs: a.Jobs = 0,
     as_json: a.Json = False,
     fps: a.Fps = None,
     salvage: a.Salvage = False,
@@ -77,7 +75,7 @@ def find(
         done = read_all(found, subject, jobs, map_file, labels=labels)
         matches = by_place(_library(done), clamp(valence or 0.0, arousal or 0.0))
     _show(matches[:top], as_json)
-    end(done)
+    finish(done)
 
 
 def _example(like: str | None, valence: float | None, arousal: float | None) -> Path | None:

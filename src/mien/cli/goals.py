@@ -60,8 +60,9 @@ def goal_of(
 
 def _aim(asked: Asked) -> "Aim":
     """Return where to, with a name that tells it from other ways and other starts."""
+    from ..emotion.circumplex import ORIGIN
     from ..emotion.model import load_model
-    from ..emotion.toward import NOWHERE, aim
+    from ..emotion.toward import aim
 
     start = _numbers(asked.start, "--start") if "," in asked.start else asked.start or None
     if asked.by:
@@ -72,7 +73,7 @@ def _aim(asked: Asked) -> "Aim":
         found = aim(to=to, start=start, method=asked.method)
         name = found.name if isinstance(to, str) else f"at{_signed(*found.to)}"
     words = [name]
-    if found.start != NOWHERE:
+    if found.start != ORIGIN:
         words.append("from-" + (start if isinstance(start, str) else _signed(*found.start)))
     words += [found.method] if found.method != "recipe" else []
     model = load_model(asked.model) if asked.model else None

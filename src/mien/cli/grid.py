@@ -82,7 +82,7 @@ def grid(
         return
     jobs = [_job(clip, target.file, fps, salvage, map_file) for target in targets]
     if not force:
-        refuse_existing([*(file for job in jobs for file in _files(job)), *engine])
+        refuse_existing([*(file for job in jobs for file in job.files), *engine])
     square = _square(jobs[0], options)
     targets[0].file.parent.mkdir(parents=True, exist_ok=True)
     for job, target in zip(jobs, targets, strict=True):
@@ -159,12 +159,6 @@ def _job(clip: Path, target: Path, fps: float | None, salvage: bool, map_file: P
     return Job(clip, target, Recipe("grid", ()), read=read, body=a.read_map(map_file))
 
 
-def _files(job: "Job") -> list[Path]:
-    from ..emotion.files import sidecar_of
-
-    return [job.target, sidecar_of(job.target)]
-
-
 def _square(job: "Job", options: Mapping[str, Any]) -> "Grid":
     """Return the square of the clip; errors begin with the path as it was given."""
     from ..batch import opened
@@ -179,11 +173,12 @@ def _square(job: "Job", options: Mapping[str, Any]) -> "Grid":
 def _write(job: "Job", square: "Grid", target: _Target, posture: "Sequence[Step]") -> None:
     """Write one clip, and beside it the recipe that makes it."""
     from ..batch import provenance
+    from ..emotion.files import sidecar_of
     from ..formats import files, save
 
     motion = square.at(target.path, target.timing, posture=posture)
     save(motion, target.file, force=True)
-    files.write(_files(job)[1], provenance(job, motion).encode())
+    files.write(sidecar_of(job.target), provenance(job, motion).encode())
 
 
 def _write_engine_file(

@@ -24,6 +24,20 @@ def note(message: str) -> None:
     typer.echo(message, err=True)
 
 
+def end(total: int, unexpected: Sequence[bool], *, done: str) -> None:
+    """Say how many of the clips failed, and end with the exit code; do nothing where none did.
+
+    ``unexpected`` says of each that failed whether the fault is the program's own, ``done`` what became of
+    the others. The code is 2 where all failed by what was given, else 1.
+    """
+    failed = len(unexpected)
+    if not failed:
+        return
+    if total > 1:
+        note(f"{total - failed} of {total} clips {done}, {failed} failed")
+    raise typer.Exit(2 if failed == total and not any(unexpected) else 1)
+
+
 def located(path: Path, error: str) -> str:
     """Return what went wrong with the clip in front, by the path that was given."""
     if error.startswith(str(path)):

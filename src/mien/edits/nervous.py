@@ -70,6 +70,7 @@ def nervous(
     original = original or motion
 
     def curve(stream: str) -> Array:
+        """Return the curve (T,) between about -1 and 1 that a stream of the seed gives."""
         return wander(motion.times, low=low, high=high, seed=seed, stream=stream)
 
     moves = np.arange(len(motion)) >= lead_in(original)

@@ -77,6 +77,7 @@ class Edit:
             return self._perform(motion, self._by_frame(motion, values, strength, None), original, joints)
 
         def render(now: Mapping[str, float]) -> Motion:
+            """Return the motion edited with the numbers of one moment."""
             level = now.get(keyed.STRENGTH, strength)
             numbers = {name: now.get(name, value) for name, value in values.items()}
             return self._perform(motion, self.scaled(numbers, level), original, joints)
@@ -185,6 +186,7 @@ def edit(*, kind: Kind = "pose", paper: str, equation: str = "", deviations: str
     """
 
     def register(function: Callable[..., Motion]) -> Callable[..., Motion]:
+        """Return the function that checks its parameters and writes them into the history."""
         name = function.__name__
         doc = inspect.getdoc(function) or ""
         asks = frozenset(inspect.signature(function).parameters)

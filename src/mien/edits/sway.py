@@ -76,6 +76,7 @@ def sway(
     stance = neutral_world(motion, body)[0]
 
     def added(joint: int, tilt: float, turn: float) -> tuple[Array, Array]:
+        """Return the turns (T, 3) about the front and about up that gains on a joint's tilt and turn add."""
         side = quaternion.rotate(quaternion.multiply(turned[:, joint], _back(stance[joint])), body.left)
         return _added(side, body, motion.frame_time, frames, tilt, turn)
 
@@ -89,7 +90,7 @@ def sway(
         low = low[0] + tilted, low[1]
         aside = shift * ASIDE * body.leg_length * weight[:, None] * body.left
         translations[:, body.roles["hips"]] += quaternion.rotate(hips_frame(motion, body), aside)
-    rotations = _turned(motion, body, turned, _shares(body, low, high))
+    rotations = _turned(motion, turned, _shares(body, low, high))
     return motion.with_(rotations=rotations, translations=translations)
 
 
@@ -135,7 +136,7 @@ def _shares(body: Body, low: tuple[Array, Array], high: tuple[Array, Array]) -> 
     return shares
 
 
-def _turned(motion: Motion, body: Body, turned: Array, shares: dict[int, Array]) -> Array:
+def _turned(motion: Motion, turned: Array, shares: dict[int, Array]) -> Array:
     """Return the local rotations (T, J, 4) with the turns of ``shares`` added in the world."""
     rotations, parents = np.array(motion.rotations), motion.skeleton.parents
     along: dict[int, Array] = {-1: np.zeros((len(motion), 3))}

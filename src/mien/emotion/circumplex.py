@@ -17,13 +17,6 @@ import numpy as np
 from ..errors import RecipeError, unknown
 
 TABLES = ("ratings", "circle")
-# The twelve emotions of Aristidou et al. 2017, three a quadrant, as far as the text names them.
-TWELVE = (
-    *("afraid", "angry", "annoyed"),
-    *("excited", "happy", "pleased"),
-    *("satisfied", "relaxed", "tired"),
-    *("bored", "sad", "miserable"),
-)
 # Numbered as Aristidou et al. 2017, table 4: clockwise from the upper left.
 QUADRANTS: Mapping[str, str] = MappingProxyType(
     {
@@ -33,7 +26,7 @@ QUADRANTS: Mapping[str, str] = MappingProxyType(
         "Q4": "mild and unpleasant",
     }
 )
-CENTRE = 0.1  # within this of the centre a point is in no quadrant
+NEAR = 0.1  # within this of the centre a point is in no quadrant
 
 
 class Point(NamedTuple):
@@ -95,7 +88,7 @@ def quadrant(valence: float, arousal: float) -> str | None:
     >>> quadrant(0.8, 0.5), quadrant(-0.6, -0.3), quadrant(0.0, 0.05)
     ('Q2', 'Q4', None)
     """
-    if np.hypot(valence, arousal) < CENTRE:
+    if np.hypot(valence, arousal) < NEAR:
         return None
     if arousal >= 0.0:
         return "Q2" if valence >= 0.0 else "Q1"
@@ -112,7 +105,7 @@ def described(valence: float, arousal: float) -> str:
     if name is None:
         return "neutral"
     sizes = zip((arousal, valence), QUADRANTS[name].split(" and "), strict=True)
-    return " and ".join(word for size, word in sizes if abs(size) >= CENTRE) or QUADRANTS[name]
+    return " and ".join(word for size, word in sizes if abs(size) >= NEAR) or QUADRANTS[name]
 
 
 ORIGIN = Point(0.0, 0.0)  # where nothing is expressed

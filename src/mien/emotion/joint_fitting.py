@@ -63,6 +63,7 @@ def joint(wish: Wish, start: Found) -> Found:
     bodies = Bodies(wish)
 
     def misses(trials: Array) -> Array:
+        """Return the misses (N, K, 16) of many trials (N, B, 10)."""
         return bodies.misses(trials[:, wish.member])
 
     return replace(start, pose=fit(misses, start.pose, LOW, HIGH, wish.member, most=TRIALS))
@@ -108,6 +109,7 @@ def drifted(wish: Wish, base: Callable[[Array], Array]) -> Drift:
     limit = FURTHEST / scale
 
     def cost(misses: Array, drift: Array) -> float:
+        """Return the objective for each knot of ``misses`` (K, 16) and a ``drift`` (K, 10) in half ranges."""
         bend = np.diff(drift, n=2, axis=0) if keys > 2 else np.zeros(1)
         return 0.5 * float((misses**2).sum() + SIZE * (drift**2).sum() + BEND * (bend**2).sum()) / keys
 

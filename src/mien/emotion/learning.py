@@ -21,7 +21,7 @@ from ..motion import Motion
 from ..signal.discriminant import Discriminant, discriminate
 from ..signal.radial import near
 from ..typing import Array, Integers
-from .circumplex import Point, quadrant
+from .circumplex import ORIGIN, Point, quadrant
 from .cluster_tables import Seen, learn_tables
 from .model import NEUTRAL, EmotionModel, Laban, Manners
 from .selection import select
@@ -30,8 +30,7 @@ VARIANCE = 0.95  # that the main components keep (Aristidou et al. 2017)
 SHRINKAGE, SHRINKAGE_ALONE = 0.3, 0.5
 COMMON = 3  # labels of a performer from which on what they share is told from what they are
 # Who compares two clips expects a change: the logarithm of how much rarer none is. Without it, small changes
-# and
-# those of other bodies are read as none.
+# and those of other bodies are read as none.
 UNCHANGED, HALFWAY = -4.0, 0.5
 LEAST_SCALE = 0.1  # of numbers of manner: what varies less is not looked at more closely
 LEAST = 5  # selected features: where fewer pass, those that the paper selected are taken
@@ -93,7 +92,7 @@ def learn(takes: Sequence[Take], places: Mapping[str, Point], *, card: Mapping[s
     Labels without a place are told apart, but say nothing about valence and arousal.
     """
     known = {
-        NEUTRAL: Point(0.0, 0.0),
+        NEUTRAL: ORIGIN,
         **{k: v for k, v in places.items() if any(t.label == k for t in takes)},
     }
     changes = without_common(takes, common_changes(takes))
@@ -163,6 +162,7 @@ def scores(takes: Sequence[Take], places: Mapping[str, Point]) -> dict[str, floa
     hits: dict[str, list[float]] = {}
 
     def note(name: str, value: float) -> None:
+        """Keep how well one take was read."""
         hits.setdefault(name, []).append(float(value))
 
     for content in sorted({take.content for take in takes}):

@@ -18,7 +18,7 @@ import numpy as np
 from ..edits.registry import EDITS
 from ..recipe import Recipe, Step
 from ..typing import Array
-from .circumplex import Point, clamp, point
+from .circumplex import ORIGIN, Point, clamp, point
 from .presets import preset
 
 if TYPE_CHECKING:
@@ -66,7 +66,6 @@ KNOBS = (
     Knob("posture", "hips_height", 0.03),
     Knob("tempo", "rate", 0.15, factor=True),
 )
-CENTRE = Point(0.0, 0.0)
 DIGITS = {
     "hips_height": 3,
     "beat": 3,
@@ -123,7 +122,7 @@ def settings_at(valence: float, arousal: float, *, table: str = "ratings") -> Ar
     return numbers * float(np.hypot(*place))
 
 
-def recipe_at(valence: float, arousal: float, *, start: Point = CENTRE, table: str = "ratings") -> Recipe:
+def recipe_at(valence: float, arousal: float, *, start: Point = ORIGIN, table: str = "ratings") -> Recipe:
     """Return the recipe that leads from one point of the disc, the centre unless said, to another.
 
     At the word of an anchor it has that preset's numbers, as far as knobs stand for them; from a point to

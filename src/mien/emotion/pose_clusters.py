@@ -40,7 +40,7 @@ WEIGHTS: Mapping[str, float] = {segment: _weight(segment) for segment in SEGMENT
 
 @dataclass(frozen=True, eq=False)
 class PoseSet:
-    """PoseSet without place and heading: ``heights`` (N,) of the pelvis over the floor in leg lengths.
+    """Poses without place and heading: ``heights`` (N,) of the pelvis over the floor in leg lengths.
 
     ``turns`` segment -> rotations (N, 4) against its parent segment, in anatomical axes.
     """

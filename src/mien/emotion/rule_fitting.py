@@ -71,6 +71,7 @@ def _fitted(
     """Return ``some`` of the coefficients (B, P), fitted to the features in ``columns``."""
 
     def misses(trials: Array) -> Array:
+        """Return the misses (N, K, R) of many trials (N, B, P)."""
         whole = np.tile(c, (len(trials), 1, 1))
         whole[..., some] = trials
         return wish.misses(wish.ruled(whole), near=near)[..., columns]
@@ -82,6 +83,7 @@ def fitted_tempo(wish: Wish) -> float:
     """Return the tempo whose pace is nearest to what is wanted, by rule g4."""
 
     def misses(trials: Array) -> Array:
+        """Return how far the pace of many trials (N, 1, 1) is off (N, 1)."""
         return wish.pace_misses(trials[:, 0, 0])[:, None]
 
     low, high = np.array([SLOWEST]), np.array([FASTEST])
@@ -116,12 +118,15 @@ def fit(
     where = np.arange(len(member))
 
     def whole(trials: Array) -> tuple[Array, Array]:
+        """Return the misses of many trials, and what they cost by themselves (N, B, P)."""
         return misses(trials), penalty(trials, low, high)
 
     def of_one(x: Array) -> Array:
+        """Return the residuals of one trial, as SciPy wants them: one row."""
         return np.concatenate([part.ravel() for part in whole(x.reshape(1, blocks, count))])
 
     def slopes(x: Array) -> Array:
+        """Return the Jacobian of ``of_one``, from as many trials as a block has coefficients."""
         here = x.reshape(blocks, count)
         steps = np.where(here + STEP <= highs, STEP, -STEP)
         trials = np.concatenate([here[None], here + steps.T[..., None] * np.eye(count)[:, None]])

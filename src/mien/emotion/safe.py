@@ -86,7 +86,7 @@ class _Search:
     """What is looked for and what is known of it: how much of the original each limb needs, and when."""
 
     def __init__(self, motion: Motion, original: Motion) -> None:
-        self.motion, self.original = motion, original
+        self.motion = self.base = motion
         self.source = Scene.of(original)
         self.known = measured(self.source)
         self.plants = [Step(s.edit, s.parameters) for s in motion.history if s.edit == "foot_plant"][-1:]
@@ -177,11 +177,9 @@ def limbs_of(name: str) -> tuple[str, ...]:
             found[f"{side}arm"] = None
         elif plain in ("chest", "belly", "spine"):
             found["torso"] = None
-        elif plain in ("thigh", "shank", "hip", "knee", "ankle", "foot", "toe", "heel", "toes", "foot_above"):
-            found |= dict.fromkeys(("torso", "left_leg", "right_leg"))
         elif plain == "place":
             found |= dict.fromkeys(LIMBS)
-        else:
+        else:  # of a leg or a foot
             found |= dict.fromkeys(("torso", "left_leg", "right_leg"))
     arms = {limb: None for limb in found if limb.endswith("arm")}
     # An arm in the trunk is the arm's: the trunk comes back when that is not enough.

@@ -17,7 +17,7 @@ from ..analysis.manner import change_between
 from ..errors import RecipeError, unknown
 from ..motion import Motion, require_motion
 from ..recipe import Recipe
-from .circumplex import Point, clamp, point
+from .circumplex import ORIGIN, Point, clamp, point
 from .example import fitted
 from .model import EmotionModel
 from .palette import as_steps, recipe_at, settings_at
@@ -28,7 +28,6 @@ from .search import stronger, times_for
 
 Method = Literal["recipe", "plain", "rules", "joint"]
 METHODS = ("recipe", "plain", "rules", "joint")
-NOWHERE = Point(0.0, 0.0)
 REACH = 0.8  # how far from the centre words are: a clear change is that of such a place, nearer is less
 
 
@@ -40,7 +39,7 @@ class Aim:
     """
 
     to: Point
-    start: Point = NOWHERE
+    start: Point = ORIGIN
     method: Method = "recipe"
     name: str = "aimed"
     model: EmotionModel | None = None
@@ -61,7 +60,7 @@ class Aim:
 
     def _written(self) -> Recipe:
         """Return the recipe whatever the clip: the preset of the word, or what is between the presets."""
-        if self.start == NOWHERE and self.name in OWN:
+        if self.start == ORIGIN and self.name in OWN:
             return preset(self.name)
         return Recipe(self.name, recipe_at(*self.to, start=self.start).steps, safe=True)
 
@@ -70,7 +69,7 @@ class Aim:
 
         So the search says the same for all places on one way from the start, and further stays more.
         """
-        if self.start == NOWHERE and self.name in OWN:
+        if self.start == ORIGIN and self.name in OWN:
             return whole
         numbers = settings_at(*self.to) - settings_at(*self.start)
         away = float(np.hypot(*np.subtract(self.to, self.start)))
@@ -82,7 +81,7 @@ class Aim:
         valence, arousal = np.add(self.start, found.place)
         away = float(np.hypot(self.to.valence - valence, self.to.arousal - arousal))
         first = next(iter(found.labels))
-        like = first if self.start == NOWHERE else f"the change is like {first}"
+        like = first if self.start == ORIGIN else f"the change is like {first}"
         return (
             f"asked for valence {self.to.valence:+.2f}, arousal {self.to.arousal:+.2f}; it reads as "
             f"{valence:+.2f}, {arousal:+.2f} ({like}), {away:.2f} away"
@@ -121,7 +120,7 @@ def aim(
     """
     if method not in METHODS:
         raise RecipeError(unknown("method", method, METHODS))
-    here = _place(start) if start is not None else NOWHERE
+    here = _place(start) if start is not None else ORIGIN
     if by is not None and to is None:
         valence, arousal = _pair(by)
         place = clamp(here.valence + valence, here.arousal + arousal)
@@ -148,8 +147,7 @@ def toward(
     """Return the motion moved to a place on the circumplex; arguments as in ``aim`` and ``edit``.
 
     ``strength`` 0 is the motion itself. ``model`` is a learned one, for ``method`` ``"rules"`` and
-    ``"joint"``. Raises ``RecipeError`` for what is unknown, ``BodyError`` where no
-    body is found.
+    ``"joint"``. Raises ``RecipeError`` for what is unknown, ``BodyError`` where no body is found.
 
     >>> mien.toward(walk, to="bored"), mien.toward(walk, to=(0.6, -0.2)), mien.toward(walk, by=(0.3, 0))
     """

@@ -16,7 +16,7 @@ from ..motion import Motion
 from ..rotations import quaternion
 from ..typing import Array, Integers
 from .body import SIDES, Body
-from .mass import FOREARM, HAND
+from .mass import HAND, arm, head_carrier
 from .poses import neutral_world
 
 STATURE = 1.78
@@ -102,7 +102,7 @@ def capsules(motion: Motion, body: Body) -> Capsules:
     size = body.height / STATURE
     found = [*_trunk(body, points, size), _head(body, points, size)]
     for side in SIDES:
-        found += [*_arm(body, points, side), *_leg(body, points, side)]
+        found += [*arm(body, points, side, hand=FIST * HAND), *_leg(body, points, side)]
     names, joints, starts, stops = zip(*found, strict=True)
     carriers = np.array(joints)
     ends = np.stack([np.array(starts), np.array(stops)], axis=1) - points[carriers, None]
@@ -134,24 +134,9 @@ def _trunk(body: Body, points: Array, size: float) -> list[Rod]:
 
 
 def _head(body: Body, points: Array, size: float) -> Rod:
-    above = body.spine[-1] if body.spine else body.roles["hips"]
-    joint = body.roles.get("head", body.roles.get("neck", above))
+    joint = head_carrier(body)
     chin = points[joint] + size * (0.04 * body.up + 0.02 * body.forward)
     return "head", joint, chin, chin + size * 0.07 * body.up
-
-
-def _arm(body: Body, points: Array, side: str) -> list[Rod]:
-    shoulder, elbow = (body.roles[f"{side}_{r}"] for r in ("shoulder", "elbow"))
-    wrist = body.roles.get(f"{side}_wrist")
-    down = points[elbow] - points[shoulder]
-    down = down / max(float(np.linalg.norm(down)), 1e-9 * body.leg_length)
-    end = points[wrist] if wrist is not None else points[elbow] + FOREARM * body.leg_length * down
-    fist = end + FIST * HAND * body.leg_length * down
-    return [
-        (f"{side}_upper_arm", shoulder, points[shoulder], points[elbow]),
-        (f"{side}_forearm", elbow, points[elbow], end),
-        (f"{side}_hand", elbow if wrist is None else wrist, end, fist),
-    ]
 
 
 def _leg(body: Body, points: Array, side: str) -> list[Rod]:

@@ -92,7 +92,7 @@ def dynamics(
     turning = np.cross(places, loads) + spins
     torques = np.einsum("rs,tsi->tri", below, turning)
     torques -= np.cross(pivots, np.einsum("rs,tsi->tri", below, loads))
-    torques -= _ground(names, pivots, feet * scale, planted, force, zero_moment, body)
+    torques -= _ground(names, pivots, feet * scale, planted, force, zero_moment)
     return Dynamics(centre, force, zero_moment, names, torques)
 
 
@@ -161,7 +161,6 @@ def _ground(
     planted: Mask,
     force: Array,
     zero_moment: Array,
-    body: Body,
 ) -> Array:
     """Return the torque (T, R, 3) of the ground's push on the feet about each joint of the legs."""
     across = feet[:, 1] - feet[:, 0]

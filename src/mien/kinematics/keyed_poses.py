@@ -16,7 +16,7 @@ from ..curve import evaluate
 from ..errors import RecipeError
 from ..motion import Motion
 from ..typing import Array
-from .poses import Pose, named_pose, pose_between, posture_pose, read_pose
+from .poses import Pose, named_pose, pose_between, posture_pose, read_pose, read_table
 
 Keys = tuple[tuple[float, Pose], ...]
 
@@ -55,18 +55,8 @@ def read_keys(path: str | Path) -> Keys:
 
     The pose is what stands in a line of keys, or the name of a pose file beside this file.
     """
-    import tomllib
-
     path = Path(path)
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise RecipeError(f"{path}: there is no such file") from None
-    except OSError as error:
-        raise RecipeError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:
-        raise RecipeError(f"{path}: not a file of keys: {error}") from None
-    rows = table.get("keys")
+    rows = read_table(path, kind="a file of keys").get("keys")
     if not (isinstance(rows, list) and rows and all(isinstance(row, dict) for row in rows)):
         raise RecipeError(f"{path}: a file of keys has tables [[keys]], each with a time and a pose")
     try:

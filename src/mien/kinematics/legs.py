@@ -144,7 +144,7 @@ def _bones(pose: Placed, a: int, b: int) -> Array:
     return np.linalg.norm(pose.positions[:, b] - pose.positions[:, a], axis=1)
 
 
-def _reachable(before: Placed, after: Placed, goal: Goal, planted: Mask, body: Body, foot: int) -> Array:
+def _reachable(after: Placed, goal: Goal, planted: Mask, body: Body, foot: int) -> Array:
     """Return the ankle's goal (T, 3), drawn in softly where a swinging leg would have to over-stretch.
 
     Up to a stretch of 0.97 (or the edited pose's own) nothing changes; from there it tends to 0.995
@@ -167,7 +167,7 @@ def _bend_leg(
     """In place: bend one leg so that its ankle and foot reach the goal; the toes stand as in the original."""
     hip, knee, ankle = (body.roles[f"{SIDES[foot]}_{r}"] for r in ("hip", "knee", "ankle"))
     world, parents = after.rotations, after.motion.skeleton.parents
-    target = _reachable(before, after, goal, planted, body, foot)
+    target = _reachable(after, goal, planted, body, foot)
     upper, lower = two_bone(
         after.positions[:, hip],
         after.positions[:, knee],

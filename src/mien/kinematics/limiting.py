@@ -53,6 +53,7 @@ def limit(motion: Motion, body: Body, allowed: Array) -> Limit:
     axes = joints.axes(joints.seen(_turned(motion.rotations, joints, parents)))
 
     def nearest(rotations: Array, frames: Integers) -> Array:
+        """Return rotations (J, 4, F) within the limits, nearest to those given."""
         local = np.moveaxis(rotations, -1, 0)
         seen = joints.seen(_turned(local, joints, parents))
         some = allowed[frames] if len(allowed) > 1 else allowed

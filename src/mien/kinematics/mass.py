@@ -86,7 +86,7 @@ def mass_model(motion: Motion, body: Body) -> MassModel:
     stance, points = neutral_world(motion, body)
     found = [*_trunk(body, points), _head(body, points)]
     for side in SIDES:
-        found += [*_arm(body, points, side), *_leg(body, points, side)]
+        found += [*arm(body, points, side), *_leg(body, points, side)]
     names, joints, starts, ends = zip(*found, strict=True)
     parts = [PARTS[name.removeprefix("left_").removeprefix("right_")] for name in names]
     carriers, start = np.array(joints), np.array(starts)
@@ -120,23 +120,32 @@ def _trunk(body: Body, points: Array) -> list[Segment]:
     return [(name, joint, low, high) for name, joint in carriers.items()]
 
 
+def head_carrier(body: Body) -> int:
+    """Return the joint that the head moves with: its own, else the next below that there is."""
+    above = body.spine[-1] if body.spine else body.roles["hips"]
+    return body.roles.get("head", body.roles.get("neck", above))
+
+
 def _head(body: Body, points: Array) -> Segment:
     """Return the head, from the top down to the jaw; its centre lies a tenth of a leg above the joint."""
-    above = body.spine[-1] if body.spine else body.roles["hips"]
-    joint = body.roles.get("head", body.roles.get("neck", above))
+    joint = head_carrier(body)
     centre = points[joint] + HEAD_CENTRE * body.leg_length * body.up
     down = -HEAD * body.leg_length * body.up
     top = centre - PARTS["head"].centre * down
     return "head", joint, top, top + down
 
 
-def _arm(body: Body, points: Array, side: str) -> list[Segment]:
+def arm(body: Body, points: Array, side: str, *, hand: float = HAND) -> list[Segment]:
+    """Return upper arm, forearm and a hand of so many leg lengths, from the joints' ``points`` (J, 3).
+
+    Where there is no wrist, the forearm has the table's length and its elbow carries the hand.
+    """
     shoulder, elbow = (body.roles[f"{side}_{r}"] for r in ("shoulder", "elbow"))
     wrist = body.roles.get(f"{side}_wrist")
     down = points[elbow] - points[shoulder]
     down = down / max(float(np.linalg.norm(down)), 1e-9 * body.leg_length)
     end = points[wrist] if wrist is not None else points[elbow] + FOREARM * body.leg_length * down
-    tip = end + HAND * body.leg_length * down
+    tip = end + hand * body.leg_length * down
     return [
         (f"{side}_upper_arm", shoulder, points[shoulder], points[elbow]),
         (f"{side}_forearm", elbow, points[elbow], end),

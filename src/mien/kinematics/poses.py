@@ -12,7 +12,7 @@ about forward tip to the body's right (the left arm goes out).
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -130,19 +130,23 @@ def posture_pose(values: Mapping[str, float]) -> Pose:
     return Pose({segment: turn for segment, turn in turns.items() if any(turn)})
 
 
-def read_pose(path: str | Path) -> Pose:
-    """Read a pose file (TOML: a table ``turns`` of segment = [left, up, forward] in degrees)."""
+def read_table(path: str | Path, *, kind: str) -> dict[str, Any]:
+    """Return what is in a TOML file; raise ``RecipeError`` where it is not there or is not ``kind``."""
     import tomllib
 
     try:
-        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise RecipeError(f"{path}: there is no such file") from None
     except OSError as error:
         raise RecipeError(f"{path}: cannot be read: {error.strerror or error}") from None
     except ValueError as error:
-        raise RecipeError(f"{path}: not a pose file: {error}") from None
-    turns = table.get("turns")
+        raise RecipeError(f"{path}: not {kind}: {error}") from None
+
+
+def read_pose(path: str | Path) -> Pose:
+    """Read a pose file (TOML: a table ``turns`` of segment = [left, up, forward] in degrees)."""
+    turns = read_table(path, kind="a pose file").get("turns")
     if not isinstance(turns, dict):
         raise RecipeError(f"{path}: a pose file has a table [turns], e.g. head = [25, 0, 0]")
     try:

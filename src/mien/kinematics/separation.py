@@ -34,6 +34,7 @@ def separated(motion: Motion, body: Body, allowed: Array) -> Motion:
     most = 0.9 * shape.radii[shape.pairs].sum(axis=1)
 
     def ask(now: Motion) -> list[Constraint]:
+        """Return the constraints that hold apart what is too deep in ``now``."""
         return _apart(now, shape, np.minimum(allowed, most), arms)
 
     return gently(motion, ask, size=body.leg_length, ease=ease, calm=CALM)
