@@ -101,3 +101,10 @@ def test_feet_stay_once_they_are_put_back_and_knees_bend() -> None:
     contacts = detect(walk, body=body)
     assert (slides(after, contacts, body) - slides(walk, contacts, body)).max() < 0.002
     assert np.ptp(height(after, walk)) > 1.5 * np.ptp(height(walk, walk))
+
+
+def test_another_seed_is_another_unevenness() -> None:
+    still = raised(np.zeros(600))
+    one, again, other = (bounce(still, beat=0.03, seed=seed).translations for seed in (1, 1, 2))
+    np.testing.assert_array_equal(one, again)
+    assert np.abs(one - other).max() > 1e-3

@@ -51,6 +51,7 @@ def bounce(
         float, Param("how deep a standing body bounces by itself", 0.0, 0.08, "leg lengths", neutral=0.0)
     ] = 0.0,
     rate: Annotated[float, Param("how often it does", 0.3, 4.0, unit="Hz")] = 1.6,
+    seed: Annotated[int, Param("which unevenness of it: another number, another one", 0)] = 0,
 ) -> Motion:
     """Make the rise and fall of the body larger or smaller than it is, without lifting it higher.
 
@@ -72,7 +73,7 @@ def bounce(
     points = foot_points(motion, body, rotations, positions)
     planted = detect_points(points, body, motion.frame_time).feet
     if beat:
-        down += beat * _knees(motion.times, rate) * standing(planted, motion.frame_time)
+        down += beat * _knees(motion.times, rate, seed) * standing(planted, motion.frame_time)
     air = _air(points @ body.up, planted, body, motion.frame_time)
     if air.any():
         down = np.maximum(smooth(hold_gaps(down, ~air), sigma=JOIN / motion.frame_time), 0.0)
@@ -82,9 +83,9 @@ def bounce(
     return motion.with_(translations=translations)
 
 
-def _knees(times: Array, rate: float) -> Array:
+def _knees(times: Array, rate: float, seed: int) -> Array:
     """Return how far (T,) the knees give: to and fro ``rate`` times a second, never twice alike."""
-    uneven = 1.0 + UNEVEN * wander(times, low=0.1, high=0.5, seed=0, stream="bounce")
+    uneven = 1.0 + UNEVEN * wander(times, low=0.1, high=0.5, seed=seed, stream="bounce")
     return np.asarray(uneven * np.sin(np.pi * rate * times) ** 2)
 
 

@@ -59,13 +59,14 @@ def sway(
         float,
         Param("how far the pelvis tilts as a standing body shifts its weight", 0.0, 12.0, "degrees", 0.0),
     ] = 0.0,
+    seed: Annotated[int, Param("which shifting of weight: another number, another one", 0)] = 0,
 ) -> Motion:
     """Make the sway of hips and shoulders larger or smaller than it is.
 
     Each factor is of what goes to and fro faster than 0.5 Hz; nothing is made up, so who stands still goes on
     standing still, and who turns a corner turns as far. At most 16 degrees are added to any tilt or turn.
     ``shift`` makes something up where no step is near: the weight goes from leg to leg every second or two,
-    the pelvis moves there and its other side sinks. Raises ``BodyError`` where no body is found.
+    as ``seed`` says, the pelvis moves there and its other side sinks. Raises ``BodyError`` where no body is found.
     """
     if hips_tilt == hips_turn == shoulders_tilt == shoulders_turn == 1.0 and shift == 0.0:
         return motion
@@ -84,7 +85,7 @@ def sway(
     high = added(top, shoulders_tilt, shoulders_turn) if body.spine else low
     translations = np.array(motion.translations)
     if shift:
-        weight = _weight(motion, body, turned, positions)
+        weight = _weight(motion, body, turned, positions, seed)
         facing = heading_rotation(positions, body)
         tilted = np.radians(shift) * weight[:, None] * quaternion.rotate(facing, body.forward)
         low = low[0] + tilted, low[1]
@@ -94,11 +95,11 @@ def sway(
     return motion.with_(rotations=rotations, translations=translations)
 
 
-def _weight(motion: Motion, body: Body, turned: Array, positions: Array) -> Array:
+def _weight(motion: Motion, body: Body, turned: Array, positions: Array, seed: int) -> Array:
     """Return on which leg (T,) a standing body puts its weight: from -1, the right one, to 1."""
     points = foot_points(motion, body, turned, positions)
     planted = detect_points(points, body, motion.frame_time).feet
-    course = wander(motion.times, low=SHIFTS[0], high=SHIFTS[1], seed=0, stream="sway")
+    course = wander(motion.times, low=SHIFTS[0], high=SHIFTS[1], seed=seed, stream="sway")
     return course * standing(planted, motion.frame_time)
 
 
