@@ -172,3 +172,16 @@ def test_a_slow_answer_is_overtaken(walking: Studio) -> None:
     walking.settle()
     assert walking.layers() == ["Tired"]
     assert walking.pixels() == shown
+
+
+@pytest.mark.parametrize("dialog", ["?", "Control+e", "Control+k"])
+def test_a_key_right_after_a_dialog(walking: Studio, dialog: str) -> None:
+    """What is pressed in the moment in which Escape closes a dialog is done, whatever was open."""
+    ghost = walking.page.get_by_role("radio", name="Ghost")
+    for _ in range(4):
+        before = ghost.is_checked()
+        walking.press(dialog)
+        walking.page.get_by_role("dialog").wait_for()
+        walking.press("Escape", "g")
+        walking.page.locator("dialog").wait_for(state="detached")
+        assert ghost.is_checked() is not before
