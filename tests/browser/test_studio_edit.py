@@ -39,6 +39,38 @@ def test_a_mood_by_its_picture(walking: Studio) -> None:
     assert walking.layers() == ["Tired"], "the chosen one goes, the other one becomes the mood"
 
 
+def test_moods_by_keys(walking: Studio) -> None:
+    """All pictures are one stop of Tab, and the arrows go among them as they stand."""
+    bar = walking.moods.get_by_role("toolbar", name="Moods", exact=True)
+    tiles = bar.get_by_role("button")
+    names = tiles.all_inner_texts()
+    assert len(names) > 12
+    assert bar.locator("button[tabindex='0']").all_inner_texts() == names[:1]
+    focused = lambda: walking.page.evaluate("document.activeElement.innerText.trim()")  # noqa: E731
+    tiles.first.focus()
+    tops = tiles.evaluate_all("all => all.map(one => one.offsetTop)")
+    columns = tops.count(tops[0])
+    assert 1 < columns < len(names)
+    ways = (("ArrowRight", 1), ("ArrowDown", 1 + columns), ("ArrowLeft", columns), ("ArrowUp", 0))
+    for key, at in (*ways, ("ArrowLeft", 0), ("End", -1), ("ArrowRight", -1), ("Home", 0)):
+        walking.press(key)
+        assert focused() == names[at], key
+    assert walking.playback("time") == 0, "the arrows do nothing else"
+    walking.press("ArrowRight", "Enter")
+    walking.settle()
+    assert walking.layers() == [names[1].capitalize()]
+    walking.press("ArrowRight", "Shift+Enter")
+    walking.settle()
+    assert walking.layers() == [name.capitalize() for name in names[1:3]]
+    walking.press("Space")
+    walking.settle()
+    assert walking.layers() == [names[1].capitalize()], "Space chooses too, and takes back what is chosen"
+    walking.press("Tab")
+    assert focused() == "As in the thesis"
+    walking.press("Shift+Tab")
+    assert focused() == names[1], "Tab comes back to the mood that the clip has"
+
+
 def test_one_drag_is_one_step(walking: Studio) -> None:
     walking.mood("sad")
     walking.drag(thumb(walking.slider("Overall")), *[(-4, 0)] * 8)
