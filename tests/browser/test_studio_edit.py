@@ -9,6 +9,7 @@ import pytest
 
 from mien import edit, load
 from mien.emotion.circumplex import words
+from mien.emotion.model import shipped_model
 from mien.formats import bvh
 
 from .driving import Studio, V, columns, middle, numbers, thumb
@@ -230,6 +231,35 @@ class TestDisc:
         assert walking.undo_name() == "Undo place on the disc"
         walking.press("Control+z")
         assert walking.layers() == []
+
+    def test_a_mood_that_is_nowhere_on_it(self, walking: Studio) -> None:
+        disc = walking.page.get_by_role("group", name="Emotion")
+        assert "nothing yet" in disc.inner_text()
+        walking.mood("proud")
+        assert re.search(r"asked\s+proud, no place on the disc", disc.inner_text())
+        assert walking.slider("Valence").get_attribute("aria-valuetext") == "proud, no place on the disc"
+        walking.mood("sad")
+        assert re.search(r"asked\s+−0\.\d+, −0\.\d+, near sad", disc.inner_text())
+        walking.mood("proud")
+        disc.get_by_role("button", name="clear").click()
+        walking.settle()
+        assert walking.layers() == []
+        assert "nothing yet" in disc.inner_text()
+
+    def test_where_no_reading_lies(self, walking: Studio) -> None:
+        """Hatched is what is further out than all that the model tells apart; nothing is read there."""
+        disc = walking.page.get_by_role("group", name="Emotion")
+        assert re.search(r"hatched\s+beyond what was learned", disc.inner_text())
+        drawn = disc.locator("[fill-rule=evenodd]")
+        within = "(one, [v, a]) => { const box = one.ownerSVGElement.getBoundingClientRect();" + (
+            "const r = box.width / 2 - 15, at = new DOMPoint(box.width / 2 + v * r, box.width / 2 - a * r);"
+            "return one.isPointInFill(at); }"
+        )
+        hatched = lambda point: drawn.evaluate(within, [*map(float, point)])  # noqa: E731
+        places = np.array(list(shipped_model().places.values()))
+        assert not any(hatched(0.98 * place) for place in places)
+        assert not any(hatched(place) for place in np.random.default_rng(3).dirichlet(np.ones(8), 20) @ places)
+        assert all(hatched(corner) for corner in ((0.69, -0.69), (-0.9, 0.0), (0.0, 0.95), (-0.5, -0.8)))
 
     def test_through_the_accessibility_tree(self, walking: Studio) -> None:
         """A screen reader meets two sliders that say the whole place, and a status that says the rest."""
