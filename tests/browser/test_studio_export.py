@@ -139,6 +139,39 @@ def test_every_kind_of_file(walking: Studio, clips: Path, tmp_path: Path) -> Non
         assert film.n_frames > 5
 
 
+def test_by_a_name_of_ones_own(walking: Studio) -> None:
+    walking.mood("sad")
+    walking.button("Export").click()
+    dialog = walking.page.get_by_role("dialog")
+    name = dialog.get_by_role("textbox", name="File name")
+
+    def exported(kind: str) -> str:
+        if not dialog.is_visible():
+            walking.button("Export").click()
+        dialog.get_by_role("radio", name=kind).check()
+        if typed is not None:
+            name.fill(typed)
+        with walking.page.expect_download() as given:
+            dialog.get_by_role("button", name="Export", exact=True).click()
+        dialog.wait_for(state="hidden")
+        assert Path(given.value.path()).read_bytes()
+        return str(given.value.suggested_filename)
+
+    name.fill("other")
+    name.press("Escape")
+    assert name.input_value() == "walk_edited", "Escape gives the text back, and the dialog stays"
+    typed = None
+    assert (exported("Motion"), exported("Recipe")) == ("walk_edited.bvh", "walk_edited.toml")
+    assert exported("Project") == "walk.mien.json"
+    typed = "Gang, müde.bvh"
+    assert (exported("Motion"), exported("Project")) == ("Gang, müde.bvh", "Gang, müde.bvh.mien.json")
+    typed = " ../../etc/pass:wd. "
+    assert exported("Motion") == "etc_pass_wd.bvh"
+    assert "etc_pass_wd.bvh was saved" in walking.messages()
+    typed = "/"
+    assert exported("Recipe") == "walk_edited.toml"
+
+
 def test_a_picture_of_the_viewport(walking: Studio) -> None:
     walking.button("File").click()
     with walking.page.expect_download() as given:
