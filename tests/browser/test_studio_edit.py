@@ -258,7 +258,9 @@ class TestDisc:
         hatched = lambda point: drawn.evaluate(within, [*map(float, point)])  # noqa: E731
         places = np.array(list(shipped_model().places.values()))
         assert not any(hatched(0.98 * place) for place in places)
-        assert not any(hatched(place) for place in np.random.default_rng(3).dirichlet(np.ones(8), 20) @ places)
+        assert not any(
+            hatched(place) for place in np.random.default_rng(3).dirichlet(np.ones(8), 20) @ places
+        )
         assert all(hatched(corner) for corner in ((0.69, -0.69), (-0.9, 0.0), (0.0, 0.95), (-0.5, -0.8)))
 
     def test_through_the_accessibility_tree(self, walking: Studio) -> None:
@@ -375,6 +377,13 @@ class TestLayers:
         three.rows.nth(0).drag_to(three.rows.nth(2), target_position={"x": 60, "y": 28})
         three.settle()
         assert three.layers() == ["Posture", "Tremor", "Tired"]
+        assert three.undo_name() == "Undo move tired"
+        three.rows.nth(2).drag_to(three.rows.nth(0), target_position={"x": 60, "y": 4})
+        assert three.layers() == ["Tired", "Posture", "Tremor"]
+        three.rows.nth(1).drag_to(three.page.get_by_role("main"))
+        assert three.layers() == ["Tired", "Posture", "Tremor"], "let go elsewhere it stays"
+        three.rows.nth(1).drag_to(three.rows.nth(2), target_position={"x": 60, "y": 28})
+        assert three.layers() == ["Tired", "Tremor", "Posture"]
 
     def test_bypass_solo_duplicate_delete(self, three: Studio) -> None:
         recipe = lambda: re.findall('edit = "(.+)"', three.export("Recipe").decode())  # noqa: E731

@@ -190,7 +190,10 @@ def test_a_line_says_where_it_is(visit: Visit, server: Server, clips: Path) -> N
 
         def seen(line: Any = line, inside: str = inside) -> float:
             """Return where the line is, when it says so: another size is known with the next frame."""
-            top, height = walking.page.locator(inside).bounding_box()["y"], walking.page.viewport_size["height"]
+            top, height = (
+                walking.page.locator(inside).bounding_box()["y"],
+                walking.page.viewport_size["height"],
+            )
             where = 100 * (line.bounding_box()["y"] - top) / (height - top)
             line.focus()
             walking.until(f"Math.abs(document.activeElement.ariaValueNow - {where}) < 1")
@@ -207,6 +210,30 @@ def test_a_line_says_where_it_is(visit: Visit, server: Server, clips: Path) -> N
         assert seen() < before + 1
         walking.page.set_viewport_size({"width": 1280, "height": 1100})
         assert seen() == pytest.approx(before, abs=1), name
+
+
+def test_full_screen(walking: Studio) -> None:
+    """The viewport alone, as large as the screen; keys and dialogs work there."""
+    main = walking.page.get_by_role("main")
+    before = main.bounding_box()
+    walking.press("Shift+F")
+    walking.until("document.fullscreenElement === document.querySelector('main')")
+    walking.until(f"document.querySelector('main').clientWidth > {before['width']} + 200")
+    walking.until(f"{V}.canvas.clientWidth > {before['width']} + 200")
+    assert walking.colours() > 500
+    ghost = walking.page.get_by_role("radio", name="Ghost")
+    was = ghost.is_checked()
+    walking.press("g")
+    assert ghost.is_checked() is not was
+    walking.press("Control+k")
+    walking.page.get_by_role("dialog").wait_for()
+    assert walking.page.evaluate(
+        "document.elementFromPoint(innerWidth / 2, innerHeight / 4).closest('dialog') !== null"
+    )
+    walking.page.keyboard.type("full screen")
+    walking.press("Enter")
+    walking.until("document.fullscreenElement === null")
+    walking.until(f"document.querySelector('main').clientWidth === {round(before['width'])}")
 
 
 def test_a_small_window(visit: Visit, server: Server, clips: Path) -> None:
