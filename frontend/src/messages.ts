@@ -130,14 +130,15 @@ export interface Word {
   arousal: number;
 }
 
-/** What the page needs to begin; ``given`` are the ids of the clips named when the studio was started. */
+/** What the page needs to begin. */
 export interface Hello {
   version: string;
   samples: string[];
   presets: PresetInfo[];
   edits: EditInfo[];
   words: Word[];
-  parts: string[];
+  learned: Word[];
+  parts: Record<string, string[]>;
   roles: string[];
   clips: ClipInfo[];
   given: string[];

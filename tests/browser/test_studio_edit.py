@@ -10,6 +10,7 @@ import pytest
 
 from mien import edit, load
 from mien.emotion.circumplex import words
+from mien.emotion.model import shipped_model
 from mien.formats import bvh
 
 from .driving import Studio, V, columns, middle, numbers, thumb
@@ -38,6 +39,38 @@ def test_a_mood_by_its_picture(walking: Studio) -> None:
     assert walking.layers() == ["Tired", "Proud"]
     walking.mood("proud")
     assert walking.layers() == ["Tired"], "the chosen one goes, the other one becomes the mood"
+
+
+def test_moods_by_keys(walking: Studio) -> None:
+    """All pictures are one stop of Tab, and the arrows go among them as they stand."""
+    bar = walking.moods.get_by_role("toolbar", name="Moods", exact=True)
+    tiles = bar.get_by_role("button")
+    names = tiles.all_inner_texts()
+    assert len(names) > 12
+    assert bar.locator("button[tabindex='0']").all_inner_texts() == names[:1]
+    focused = lambda: walking.page.evaluate("document.activeElement.innerText.trim()")  # noqa: E731
+    tiles.first.focus()
+    tops = tiles.evaluate_all("all => all.map(one => one.offsetTop)")
+    columns = tops.count(tops[0])
+    assert 1 < columns < len(names)
+    ways = (("ArrowRight", 1), ("ArrowDown", 1 + columns), ("ArrowLeft", columns), ("ArrowUp", 0))
+    for key, at in (*ways, ("ArrowLeft", 0), ("End", -1), ("ArrowRight", -1), ("Home", 0)):
+        walking.press(key)
+        assert focused() == names[at], key
+    assert walking.playback("time") == 0, "the arrows do nothing else"
+    walking.press("ArrowRight", "Enter")
+    walking.settle()
+    assert walking.layers() == [names[1].capitalize()]
+    walking.press("ArrowRight", "Shift+Enter")
+    walking.settle()
+    assert walking.layers() == [name.capitalize() for name in names[1:3]]
+    walking.press("Space")
+    walking.settle()
+    assert walking.layers() == [names[1].capitalize()], "Space chooses too, and takes back what is chosen"
+    walking.press("Tab")
+    assert focused() == "As in the thesis"
+    walking.press("Shift+Tab")
+    assert focused() == names[1], "Tab comes back to the mood that the clip has"
 
 
 def test_one_drag_is_one_step(walking: Studio) -> None:
@@ -199,6 +232,37 @@ class TestDisc:
         assert walking.undo_name() == "Undo place on the disc"
         walking.press("Control+z")
         assert walking.layers() == []
+
+    def test_a_mood_that_is_nowhere_on_it(self, walking: Studio) -> None:
+        disc = walking.page.get_by_role("group", name="Emotion")
+        assert "nothing yet" in disc.inner_text()
+        walking.mood("proud")
+        assert re.search(r"asked\s+proud, no place on the disc", disc.inner_text())
+        assert walking.slider("Valence").get_attribute("aria-valuetext") == "proud, no place on the disc"
+        walking.mood("sad")
+        assert re.search(r"asked\s+−0\.\d+, −0\.\d+, near sad", disc.inner_text())
+        walking.mood("proud")
+        disc.get_by_role("button", name="clear").click()
+        walking.settle()
+        assert walking.layers() == []
+        assert "nothing yet" in disc.inner_text()
+
+    def test_where_no_reading_lies(self, walking: Studio) -> None:
+        """Hatched is what is further out than all that the model tells apart; nothing is read there."""
+        disc = walking.page.get_by_role("group", name="Emotion")
+        assert re.search(r"hatched\s+beyond what was learned", disc.inner_text())
+        drawn = disc.locator("[fill-rule=evenodd]")
+        within = "(one, [v, a]) => { const box = one.ownerSVGElement.getBoundingClientRect();" + (
+            "const r = box.width / 2 - 15, at = new DOMPoint(box.width / 2 + v * r, box.width / 2 - a * r);"
+            "return one.isPointInFill(at); }"
+        )
+        hatched = lambda point: drawn.evaluate(within, [*map(float, point)])  # noqa: E731
+        places = np.array(list(shipped_model().places.values()))
+        assert not any(hatched(0.98 * place) for place in places)
+        assert not any(
+            hatched(place) for place in np.random.default_rng(3).dirichlet(np.ones(8), 20) @ places
+        )
+        assert all(hatched(corner) for corner in ((0.69, -0.69), (-0.9, 0.0), (0.0, 0.95), (-0.5, -0.8)))
 
     def test_through_the_accessibility_tree(self, walking: Studio) -> None:
         """A screen reader meets two sliders that say the whole place, and a status that says the rest."""
@@ -372,6 +436,13 @@ class TestLayers:
         three.rows.nth(0).drag_to(three.rows.nth(2), target_position={"x": 60, "y": 28})
         three.settle()
         assert three.layers() == ["Posture", "Tremor", "Tired"]
+        assert three.undo_name() == "Undo move tired"
+        three.rows.nth(2).drag_to(three.rows.nth(0), target_position={"x": 60, "y": 4})
+        assert three.layers() == ["Tired", "Posture", "Tremor"]
+        three.rows.nth(1).drag_to(three.page.get_by_role("main"))
+        assert three.layers() == ["Tired", "Posture", "Tremor"], "let go elsewhere it stays"
+        three.rows.nth(1).drag_to(three.rows.nth(2), target_position={"x": 60, "y": 28})
+        assert three.layers() == ["Tired", "Tremor", "Posture"]
 
     def test_bypass_solo_duplicate_delete(self, three: Studio) -> None:
         recipe = lambda: re.findall('edit = "(.+)"', three.export("Recipe").decode())  # noqa: E731

@@ -139,6 +139,58 @@ def test_every_kind_of_file(walking: Studio, clips: Path, tmp_path: Path) -> Non
         assert film.n_frames > 5
 
 
+def test_a_film(walking: Studio, tmp_path: Path) -> None:
+    av = pytest.importorskip("av", reason="MP4 needs PyAV, which is not installed")
+    walking.mood("sad")
+    walking.button("Export").click()
+    walking.page.get_by_role("radio", name="Film (MP4)").check()
+    walking.type("Height", "240")
+    with walking.page.expect_download(timeout=120_000) as given:
+        walking.page.get_by_role("dialog").get_by_role("button", name="Export", exact=True).click()
+    assert given.value.suggested_filename == "walk_edited.mp4"
+    with av.open(str(given.value.path())) as film:
+        pictures = [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
+        seconds = float(len(pictures) / film.streams.video[0].average_rate)
+    assert seconds == pytest.approx(walking.playback("duration"), abs=0.1)
+    assert pictures[0].shape[0] == 240
+    left, right = np.split(pictures[len(pictures) // 2], 2, axis=1)
+    assert np.ptp(left) > 100, "original and edit stand beside each other"
+    assert np.ptp(right) > 100
+
+
+def test_by_a_name_of_ones_own(walking: Studio) -> None:
+    walking.mood("sad")
+    walking.button("Export").click()
+    dialog = walking.page.get_by_role("dialog")
+    name = dialog.get_by_role("textbox", name="File name")
+
+    def exported(kind: str) -> str:
+        if not dialog.is_visible():
+            walking.button("Export").click()
+        dialog.get_by_role("radio", name=kind).check()
+        if typed is not None:
+            name.fill(typed)
+        with walking.page.expect_download() as given:
+            dialog.get_by_role("button", name="Export", exact=True).click()
+        dialog.wait_for(state="hidden")
+        assert Path(given.value.path()).read_bytes()
+        return str(given.value.suggested_filename)
+
+    name.fill("other")
+    name.press("Escape")
+    assert name.input_value() == "walk_edited", "Escape gives the text back, and the dialog stays"
+    typed = None
+    assert (exported("Motion"), exported("Recipe")) == ("walk_edited.bvh", "walk_edited.toml")
+    assert exported("Project") == "walk.mien.json"
+    typed = "Gang, müde.bvh"
+    assert (exported("Motion"), exported("Project")) == ("Gang, müde.bvh", "Gang, müde.bvh.mien.json")
+    typed = " ../../etc/pass:wd. "
+    assert exported("Motion") == "etc_pass_wd.bvh"
+    assert "etc_pass_wd.bvh was saved" in walking.messages()
+    typed = "/"
+    assert exported("Recipe") == "walk_edited.toml"
+
+
 def test_a_picture_of_the_viewport(walking: Studio) -> None:
     walking.button("File").click()
     with walking.page.expect_download() as given:

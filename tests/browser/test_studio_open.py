@@ -54,6 +54,32 @@ def test_by_dropping(studio: Studio, clips: Path) -> None:
     assert studio.colours() > 800
 
 
+def test_by_dropping_as_the_system_does(studio: Studio, clips: Path, tmp_path: Path) -> None:
+    """Files that the browser itself gets from outside: anywhere on the page, several, some no clips."""
+    other = tmp_path / "notes.txt"
+    other.write_text("no clip", encoding="utf-8")
+    files = [str(other), *(str(clips / name) for name in ("walk.bvh", "wave.bvh"))]
+    browser = studio.page.context.new_cdp_session(studio.page)
+
+    def carry(kind: str, place: tuple[float, float]) -> None:
+        data = {"items": [], "files": files, "dragOperationsMask": 1}
+        browser.send("Input.dispatchDragEvent", {"type": kind, "x": place[0], "y": place[1], "data": data})
+
+    hint = studio.page.get_by_text("Drop to open", exact=True)
+    carry("dragEnter", (640.0, 300.0))
+    for place in ((640.0, 300.0), (100.0, 500.0)):
+        carry("dragOver", place)
+        hint.wait_for()
+    assert open_clips(studio) == []
+    carry("drop", (100.0, 500.0))
+    hint.wait_for(state="detached")
+    studio.page.get_by_role("alert").filter(has_text="notes.txt is neither").wait_for()
+    studio.until("document.title.startsWith('wave.bvh')")
+    studio.settle()
+    assert open_clips(studio) == ["wave.bvh", "walk.bvh"]
+    assert studio.page.url.startswith(studio.server.base), "the browser did not go to the file"
+
+
 def test_a_sample(studio: Studio) -> None:
     studio.page.get_by_role("main").get_by_role("button", name=re.compile("^wave")).click()
     studio.settle()

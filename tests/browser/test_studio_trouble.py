@@ -99,12 +99,42 @@ def test_a_second_tab(walking: Studio, visit: Visit) -> None:
     walking.page.reload()
     walking.settle()
     assert walking.layers() == ["Sad"], "what the second tab does is not kept"
+    assert walking.page.get_by_role("alert").count() == 0, "who is there again goes on"
+    said.wait_for()
     said.get_by_role("button", name="Go on here instead").click()
     walking.page.get_by_role("alert").filter(has_text="open in another tab").wait_for()
     other.mood("proud")
     other.page.reload()
     other.settle()
     assert other.layers() == ["Proud"], "now this one keeps the work"
+
+
+def test_the_working_tab_is_closed(walking: Studio, visit: Visit) -> None:
+    """One of those that wait goes on with its work, and only one."""
+    others = [visit(walking.server, walking.page.context) for _ in range(2)]
+    looks = [other.page.get_by_role("alert").filter(has_text="open in another tab") for other in others]
+    for look in looks:
+        look.wait_for()
+    others[0].mood("tired")
+    walking.mood("sad")
+    walking.page.close()
+    looks[0].wait_for(state="hidden")
+    others[0].settle()
+    assert looks[1].is_visible(), "nobody else keeps it"
+    assert others[0].layers() == ["Sad"], "what was kept, not what was done where it was not"
+    assert others[0].undo_name() == "Undo what the other tab did"
+    others[0].press("Control+z")
+    assert others[0].layers() == ["Tired"]
+    others[0].mood("proud")
+    others[0].page.close()
+    looks[1].wait_for(state="hidden")
+    others[1].settle()
+    assert others[1].layers() == ["Proud"]
+    others[1].add("Posture")
+    others[1].page.reload()
+    others[1].settle()
+    assert others[1].layers() == ["Proud", "Posture"]
+    assert others[1].page.get_by_role("alert").count() == 0
 
 
 @pytest.fixture
@@ -172,3 +202,16 @@ def test_a_slow_answer_is_overtaken(walking: Studio) -> None:
     walking.settle()
     assert walking.layers() == ["Tired"]
     assert walking.pixels() == shown
+
+
+@pytest.mark.parametrize("dialog", ["?", "Control+e", "Control+k"])
+def test_a_key_right_after_a_dialog(walking: Studio, dialog: str) -> None:
+    """What is pressed in the moment in which Escape closes a dialog is done, whatever was open."""
+    ghost = walking.page.get_by_role("radio", name="Ghost")
+    for _ in range(4):
+        before = ghost.is_checked()
+        walking.press(dialog)
+        walking.page.get_by_role("dialog").wait_for()
+        walking.press("Escape", "g")
+        walking.page.locator("dialog").wait_for(state="detached")
+        assert ghost.is_checked() is not before

@@ -4,12 +4,14 @@ import re
 from collections.abc import Callable
 from difflib import unified_diff
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PIL import Image
 
 from .driving import Server, Studio, V, middle
 
+LINES = ("Height of the timeline", "Height of the layers")
 Visit = Callable[..., Studio]
 
 
@@ -168,7 +170,7 @@ def test_columns_can_be_made_higher(visit: Visit, server: Server, clips: Path) -
     walking = visit(server, viewport={"width": 1280, "height": 560})
     walking.open(clips / "walk.bvh")
     walking.add("Posture")
-    for name in ("Height of the timeline", "Height of the layers"):
+    for name in LINES:
         line = walking.page.get_by_role("separator", name=name)
         place = lambda line=line: (line.bounding_box()["y"], float(line.get_attribute("aria-valuenow")))  # noqa: E731
         before = place()
@@ -183,6 +185,62 @@ def test_columns_can_be_made_higher(visit: Visit, server: Server, clips: Path) -
         line.dblclick()
         assert place() == before
     assert walking.colours() > 500
+
+
+def test_a_line_says_where_it_is(visit: Visit, server: Server, clips: Path) -> None:
+    """Where there is less to show than there is room for, the line stands lower than it was put."""
+    walking = visit(server, viewport={"width": 1280, "height": 1100})
+    walking.open(clips / "walk.bvh")
+    ends = ((name, "main" if name.endswith("timeline") else "aside[aria-label=Edit]") for name in LINES)
+    for name, inside in ends:
+        line = walking.page.get_by_role("separator", name=name)
+
+        def seen(line: Any = line, inside: str = inside) -> float:
+            """Return where the line is, when it says so: another size is known with the next frame."""
+            top, height = (
+                walking.page.locator(inside).bounding_box()["y"],
+                walking.page.viewport_size["height"],
+            )
+            where = 100 * (line.bounding_box()["y"] - top) / (height - top)
+            line.focus()
+            walking.until(f"Math.abs(document.activeElement.ariaValueNow - {where}) < 1")
+            low, now, high = (float(line.get_attribute(f"aria-value{end}")) for end in ("min", "now", "max"))
+            assert low <= now <= high
+            return float(where)
+
+        before = seen()
+        walking.press("ArrowDown")
+        assert seen() == pytest.approx(before + 4, abs=1), name
+        walking.press("ArrowUp")
+        assert seen() == pytest.approx(before, abs=1), name
+        walking.page.set_viewport_size({"width": 1280, "height": 600})
+        assert seen() < before + 1
+        walking.page.set_viewport_size({"width": 1280, "height": 1100})
+        assert seen() == pytest.approx(before, abs=1), name
+
+
+def test_full_screen(walking: Studio) -> None:
+    """The viewport alone, as large as the screen; keys and dialogs work there."""
+    main = walking.page.get_by_role("main")
+    before = main.bounding_box()
+    walking.press("Shift+F")
+    walking.until("document.fullscreenElement === document.querySelector('main')")
+    walking.until(f"document.querySelector('main').clientWidth > {before['width']} + 200")
+    walking.until(f"{V}.canvas.clientWidth > {before['width']} + 200")
+    assert walking.colours() > 500
+    ghost = walking.page.get_by_role("radio", name="Ghost")
+    was = ghost.is_checked()
+    walking.press("g")
+    assert ghost.is_checked() is not was
+    walking.press("Control+k")
+    walking.page.get_by_role("dialog").wait_for()
+    assert walking.page.evaluate(
+        "document.elementFromPoint(innerWidth / 2, innerHeight / 4).closest('dialog') !== null"
+    )
+    walking.page.keyboard.type("full screen")
+    walking.press("Enter")
+    walking.until("document.fullscreenElement === null")
+    walking.until(f"document.querySelector('main').clientWidth === {round(before['width'])}")
 
 
 def test_a_small_window(visit: Visit, server: Server, clips: Path) -> None:

@@ -11,7 +11,9 @@ import pytest
 from starlette.testclient import TestClient
 
 import mien
+from mien.emotion.model import shipped_model
 from mien.formats import bvh
+from mien.kinematics.parts import PARTS
 from mien.motion import Motion
 from mien.samples import walk
 from mien.studio import server
@@ -36,6 +38,9 @@ def test_what_the_page_needs_to_begin(client: TestClient, clip: str) -> None:
     hello = answer.json()
     assert [c["id"] for c in hello["clips"]] == [clip]
     assert {p["name"] for p in hello["presets"]} == set(mien.PRESETS)
+    assert {name: tuple(of) for name, of in hello["parts"].items()} == PARTS
+    model = shipped_model()
+    assert {w["name"]: (w["valence"], w["arousal"]) for w in hello["learned"]} == model.places
     posture = next(e for e in hello["edits"] if e["name"] == "posture")
     head = next(p for p in posture["parameters"] if p["name"] == "head")
     assert (head["kind"], head["unit"], head["neutral"]) == ("number", "degrees", 0.0)

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { WORDS } from "../demo/data";
-import { distance, inside, keyed, nearest, onto, reach, text } from "./disc";
+import { distance, hull, inside, keyed, nearest, onto, reach, text } from "./disc";
 
 describe("the disc", () => {
   it("has an inside, and a rim that the handle keeps to", () => {
@@ -15,6 +15,13 @@ describe("the disc", () => {
     expect(nearest(WORDS, [0.6, -0.27])?.name).toBe("at ease");
     expect(nearest([], [0, 0])).toBeNull();
     expect(distance({ valence: 0, arousal: 0 }, { valence: 0.3, arousal: -0.4 })).toBeCloseTo(0.5, 12);
+  });
+  it("knows what lies between points", () => {
+    const corners = [[-1, 0], [0, -1], [1, 0], [0, 1]] as const;
+    const within = [[0, 0], [0.5, 0.5], [-0.2, 0.1]] as const; // one of them on an edge
+    expect(hull([within[0], corners[3], corners[0], within[1], corners[2], corners[1], within[2]])).toEqual(corners);
+    expect(hull([[0, 0], [1, 1]])).toEqual([]);
+    expect(hull([[0, 0], [1, 1], [0.5, 0.5]])).toHaveLength(2);
   });
   it("is said in words", () => {
     expect(text(WORDS, [0.7, -0.45])).toBe("valence 0.7 pleasant, arousal −0.45 calm, near relaxed");

@@ -41,6 +41,25 @@ export function nearest(words: readonly Word[], [valence, arousal]: Point): Word
   return best;
 }
 
+/** The corners of the smallest convex shape around points, one after the other (Andrew 1979). */
+export function hull(points: readonly Point[]): Point[] {
+  const sorted = points.toSorted(([x, y], [u, v]) => x - u || y - v);
+  const half = (those: readonly Point[]): Point[] => {
+    const found: Point[] = [];
+    for (const point of those) {
+      while (found.length > 1 && turn(found.at(-2)!, found.at(-1)!, point) <= 0) found.pop();
+      found.push(point);
+    }
+    return found.slice(0, -1);
+  };
+  return sorted.length < 3 ? [] : [...half(sorted), ...half(sorted.toReversed())];
+}
+
+/** Above nothing where the way over three points turns to the left. */
+function turn(one: Point, two: Point, three: Point): number {
+  return (two[0] - one[0]) * (three[1] - one[1]) - (two[1] - one[1]) * (three[0] - one[0]);
+}
+
 type Somewhere = Pick<Word, "valence" | "arousal">;
 
 export function distance(one: Somewhere, two: Somewhere): number {

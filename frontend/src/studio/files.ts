@@ -1,6 +1,7 @@
 // Opening, closing and giving files. Failures are told and leave everything as it was.
 import type { ClipInfo, ExportRequest, Project } from "../messages";
 import { asSentence, type Download } from "./api";
+import { stemOf } from "./names";
 import { keepFile } from "./shelf";
 import type { Studio } from "./store.svelte";
 
@@ -82,21 +83,23 @@ export async function openProject(studio: Studio, file: Blob & { name?: string }
 }
 
 /** Save the project as a file: clips by their hash, their layers, and the view. */
-export function saveProject(studio: Studio): void {
+export function saveProject(studio: Studio, name = ""): void {
   const text = JSON.stringify(studio.project(), null, 1);
-  const stem = studio.clip?.name.replace(/\.[^.]*$/, "") ?? "studio";
-  give({ name: `${stem}.mien.json`, data: new Blob([text], { type: "application/json" }) });
+  const stem = stemOf(studio.clip?.name ?? "studio");
+  give({ name: name || `${stem}.mien.json`, data: new Blob([text], { type: "application/json" }) });
   studio.notices.done("The project was saved to your downloads.");
 }
 
-/** Have the server make a file, and save it. */
+/** Have the server make a file, and save it; without a name by the one that the server gives it. */
 export async function exportFile(
   studio: Studio,
   kind: ExportRequest["kind"],
   options: ExportRequest["options"],
+  name = "",
 ): Promise<boolean> {
   try {
-    const file = await studio.api.exported({ clip: studio.current, stack: studio.stack, kind, options });
+    const made = await studio.api.exported({ clip: studio.current, stack: studio.stack, kind, options });
+    const file = { ...made, name: name || made.name };
     give(file);
     studio.notices.done(`${file.name} was saved to your downloads.`);
     return true;

@@ -38,8 +38,7 @@ export class Keeper {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #newest: Project | null = null;
   #busy = false;
-  /** A tab that gave the work away keeps nothing. */
-  paused = false;
+  #paused = false;
 
   constructor(
     private readonly shelf: Shelf,
@@ -47,8 +46,16 @@ export class Keeper {
     private readonly heard: (state: Keeping, why: string) => void,
   ) {}
 
+  /** A tab that gave the work away keeps nothing, not even what it was about to send. */
+  set paused(paused: boolean) {
+    this.#paused = paused;
+    if (!paused) return;
+    clearTimeout(this.#timer);
+    this.#newest = null;
+  }
+
   keep(project: Project): void {
-    if (this.paused) return;
+    if (this.#paused) return;
     this.#newest = project;
     this.heard(this.#here(project) ? "waiting" : "failed", FULL);
     clearTimeout(this.#timer);
@@ -58,7 +65,7 @@ export class Keeper {
   /** The page goes: what is not with the server yet is sent now. */
   flush(): void {
     clearTimeout(this.#timer);
-    if (this.#newest && !this.paused) void this.tell(this.#newest, true).catch(() => undefined);
+    if (this.#newest) void this.tell(this.#newest, true).catch(() => undefined);
     this.#newest = null;
   }
 
@@ -97,40 +104,81 @@ export class Keeper {
 
 const FULL = "this browser keeps nothing more (its storage is full); the server still does";
 
-interface Word {
-  from: string;
-  says: "who is there" | "I am" | "mine now";
-}
+const NAME = "mien studio keeps"; // of the lock; the browser gives it to one tab at a time
+const LEFT = "mien: left"; // in the tab's own storage: when it was left while it kept the work
+const RELOAD = 10_000; // milliseconds in which a tab that was left is there again, if it was reloaded
+const GRACE = 1500; // milliseconds that a waiting tab gives the other one to come back
+const NEVER = new Promise<void>(() => undefined);
 
-/** Which tab keeps the work: the first one, until another one takes it. */
+/** Which tab keeps the work: the first one, until it is closed or another one takes it. */
 export class Tabs {
-  readonly #channel = new BroadcastChannel("mien studio");
-  readonly #me = crypto.randomUUID();
+  /** What this tab holds the lock by; another one each time. */
+  #held: object | null = null;
+  #waiting: AbortController | undefined;
 
-  /** `second` is called where another tab was here first; `taken` where another takes the work over. */
-  constructor(second: () => void, taken: () => void) {
-    this.#channel.onmessage = ({ data }: MessageEvent<Word>) => {
-      if (data.says === "who is there" && this.owns) this.#say("I am");
-      if (data.says === "I am" && this.owns) {
-        this.owns = false;
-        second();
-      }
-      if (data.says === "mine now" && this.owns) {
-        this.owns = false;
-        taken();
-      }
-    };
-    this.#say("who is there");
+  /** `lost` is called where another tab took the work, `got` where it fell to this one, which had waited. */
+  constructor(
+    private readonly lost: () => void,
+    private readonly got: () => void,
+    private readonly locks: LockManager = navigator.locks,
+    private readonly own: Storage | undefined = globalThis.sessionStorage,
+  ) {}
+
+  /** Whether the work is this tab's. */
+  get mine(): boolean {
+    return this.#held !== null;
   }
 
-  owns = true;
-
-  take(): void {
-    this.owns = true;
-    this.#say("mine now");
+  /** Learn whether this tab keeps the work; where it does not, it waits for it. */
+  async begin(): Promise<boolean> {
+    const left = Number(this.own?.getItem(LEFT) ?? 0);
+    this.own?.removeItem(LEFT);
+    // A tab that is reloaded goes on: the work is not for those that wait.
+    const again = Date.now() - left < RELOAD;
+    const mine = await this.#hold(again ? { steal: true } : { ifAvailable: true });
+    if (!mine) this.#wait();
+    return mine;
   }
 
-  #say(says: Word["says"]): void {
-    this.#channel.postMessage({ from: this.#me, says } satisfies Word);
+  /** Take the work from whichever tab has it. */
+  async take(): Promise<void> {
+    this.#waiting?.abort();
+    if (!this.#held) await this.#hold({ steal: true });
+  }
+
+  /** The page goes. */
+  leave(): void {
+    if (this.#held) this.own?.setItem(LEFT, String(Date.now()));
+  }
+
+  #wait(): void {
+    const waiting = (this.#waiting = new AbortController());
+    void this.#hold({ signal: waiting.signal }).then((mine) => {
+      if (!mine) return;
+      const held = this.#held;
+      setTimeout(() => {
+        if (!waiting.signal.aborted && held === this.#held) this.got();
+      }, GRACE);
+    });
+  }
+
+  /** Get the lock and hold it for as long as the page is there; whether it came. */
+  #hold(options: LockOptions): Promise<boolean> {
+    const mine = {};
+    return new Promise((resolve) => {
+      const given = (lock: Lock | null) => {
+        if (lock) this.#held = mine;
+        resolve(lock !== null);
+        return lock ? NEVER : undefined;
+      };
+      // It fails where it is not waited for any more, and where another tab takes the lock away.
+      this.locks.request(NAME, options, given).catch(() => {
+        resolve(false);
+        if (this.#held !== mine) return;
+        this.#held = null;
+        this.lost();
+        this.#wait();
+      });
+    });
   }
 }

@@ -21,13 +21,13 @@ export function layerFor(
     kind,
     name,
     parameters,
-    strength: 1,
-    parts: [],
-    span: null,
-    ease: 0.25,
-    on: true,
-    solo: false,
+    ...fresh(),
   };
+}
+
+/** How a layer is done where nothing else is said. */
+function fresh(): Omit<Layer, "id" | "kind" | "name" | "parameters"> {
+  return { strength: 1, parts: [], span: null, ease: 0.25, on: true, solo: false };
 }
 
 export function find(stack: Stack, id: string): Layer | undefined {
@@ -91,15 +91,7 @@ export function reset(stack: Stack, id: string): Stack {
   const layer = find(stack, id);
   if (!layer) return stack;
   const parameters = layer.kind === "place" ? layer.parameters : {};
-  return change(stack, id, {
-    parameters,
-    strength: 1,
-    parts: [],
-    span: null,
-    ease: 0.25,
-    on: true,
-    solo: false,
-  });
+  return change(stack, id, { parameters, ...fresh() });
 }
 
 /**

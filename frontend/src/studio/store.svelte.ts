@@ -96,8 +96,9 @@ export class Studio {
     }
     this.#tabs = new Tabs(
       () => this.#becomeSecond(),
-      () => this.#becomeSecond(),
+      () => void this.#inherit(),
     );
+    if (!(await this.#tabs.begin())) this.#becomeSecond();
     this.clips = this.hello.clips;
     const there = await this.api.project().catch(() => null);
     await this.take(newer(there, keptHere(this.shelf)), { begin: true, named: this.#named() });
@@ -281,17 +282,36 @@ export class Studio {
   /** The page goes away. */
   leave(): void {
     this.#keeper.flush();
+    this.#tabs?.leave();
   }
 
   /** Go on in this tab; the other one only looks from now on. */
-  takeOver(): void {
+  async takeOver(): Promise<void> {
+    await this.#tabs?.take();
     this.second = this.#keeper.paused = false;
-    this.#tabs?.take();
     this.keep();
   }
 
   #becomeSecond(): void {
     this.second = this.#keeper.paused = true;
+  }
+
+  /** The tab that kept the work was closed: go on with what it kept; undo brings back what was done here. */
+  async #inherit(): Promise<void> {
+    const [clips, there] = await Promise.all([this.api.clips(), this.api.project()]).catch(() => []);
+    const kept = newer(there ?? null, keptHere(this.shelf));
+    const before = this.#histories;
+    if (clips) this.clips = clips;
+    await this.take(kept);
+    const stepped = (kept?.clips ?? []).map(({ id, stack }) => {
+      const history = before[id] ?? histories.begun(stacks.EMPTY);
+      const same = JSON.stringify(history.present.value) === JSON.stringify(stack);
+      return [id, same ? history : histories.changed(history, stack, "what the other tab did", "")];
+    });
+    this.#histories = { ...this.#histories, ...Object.fromEntries(stepped) };
+    if (!this.#tabs?.mine) return;
+    this.second = this.#keeper.paused = false;
+    this.notices.done("The other tab was closed: this one goes on with its work, and keeps it.");
   }
 
   /** Whether a change follows so soon on one of the same kind that both are one step. */

@@ -40,6 +40,9 @@ const settle = () => vi.advanceTimersByTimeAsync(1000);
 
 beforeEach(() => {
   vi.useFakeTimers();
+  // Node has no locks to share with other tabs; there are none either.
+  const request = async (_name: string, _options: object, given: (lock: object) => unknown) => given({});
+  vi.stubGlobal("navigator", { locks: { request } });
   vi.stubGlobal("matchMedia", () => ({ matches: true }));
 });
 afterEach(() => {

@@ -1,10 +1,12 @@
 """What the page is told at the start: edits with their parameters, presets, words, parts, samples."""
 
+from collections.abc import Mapping
 from importlib.metadata import version
 from typing import Any
 
 from ..edits.registry import EDITS, Edit, Parameter
-from ..emotion.circumplex import words
+from ..emotion.circumplex import Point, words
+from ..emotion.model import shipped_model
 from ..emotion.presets import PRESETS, preset
 from ..kinematics.parts import PARTS
 from ..kinematics.roles import ROLES
@@ -23,13 +25,18 @@ def hello(clips: list[ClipInfo], given: list[str], *, largest_upload: int) -> He
         samples=[name for name in SHOWN if name in SAMPLES],
         presets=[_preset(name) for name in PRESETS],
         edits=[_edit(edit) for edit in EDITS.values()],
-        words=[Word(name, *map(float, point)) for name, point in words().items()],
-        parts=list(PARTS),
+        words=_places(words()),
+        learned=_places(shipped_model().places),
+        parts={name: list(members) for name, members in PARTS.items()},
         roles=list(ROLES),
         clips=clips,
         given=given,
         largest_upload=largest_upload,
     )
+
+
+def _places(points: Mapping[str, Point]) -> list[Word]:
+    return [Word(name, *map(float, point)) for name, point in points.items()]
 
 
 def _preset(name: str) -> PresetInfo:

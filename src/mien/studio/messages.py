@@ -138,14 +138,20 @@ class Word:
 
 @dataclass(frozen=True)
 class Hello:
-    """What the page needs to begin; ``given`` are the ids of the clips named when the studio was started."""
+    """What the page needs to begin.
+
+    ``learned`` are the labels that motions are read as, where they stand; a reading is a mean of them.
+    ``parts`` are names for parts of the body, and what of. ``given`` are the ids of the clips named when the
+    studio was started.
+    """
 
     version: str
     samples: list[str]
     presets: list[PresetInfo]
     edits: list[EditInfo]
     words: list[Word]
-    parts: list[str]
+    learned: list[Word]
+    parts: dict[str, list[str]]
     roles: list[str]
     clips: list[ClipInfo]
     given: list[str]

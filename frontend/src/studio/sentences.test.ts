@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { firstSentence } from "./parts";
+import { firstSentence } from "./sentences";
 
 it("a text is its first sentence and the rest", () => {
   expect(firstSentence("Not found: left_knee. Its joints are: Hips.\n[roles]")).toEqual([
