@@ -1,10 +1,16 @@
 """Shared fixtures. Real clips are other people's and stay outside the project; tests skip without them."""
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import settings
+
+from mien import samples
+from mien.kinematics.body import Body
+from mien.motion import Motion
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = Path(os.environ.get("MIEN_DATA", ROOT.parent / "shared" / "data"))
@@ -23,3 +29,21 @@ def data() -> Path:
     if not DATA.is_dir():
         pytest.skip("no real clips: set MIEN_DATA to a folder that has them")
     return DATA
+
+
+@pytest.fixture(scope="session")
+def nameless() -> tuple[Motion, dict[str, str]]:
+    """A walk in which no body is found, and which joint plays which role in it.
+
+    Its names say nothing, and its right limbs are so much shorter than the left that they are no pair.
+    """
+    motion = samples.walk(seconds=2.5, fps=30.0).motion
+    skeleton, roles = motion.skeleton, Body.of(motion).roles
+    names = tuple(f"j{i:02}" for i in range(len(skeleton)))
+    right = [j for role in ("right_hip", "right_shoulder") for j in skeleton.descendants(roles[role])[1:]]
+    offsets, translations = np.array(skeleton.offsets), np.array(motion.translations)
+    offsets[right] *= 0.8
+    translations[:, right] *= 0.8
+    lopsided = replace(skeleton, names=names, offsets=offsets, layout=None)
+    made = motion.with_(skeleton=lopsided, translations=translations, source=None, name="nameless")
+    return made, {role: names[joint] for role, joint in roles.items()}

@@ -63,6 +63,14 @@ export class Api {
   openSample = (name: string) =>
     this.#json<messages.ClipInfo>(`samples/${encodeURIComponent(name)}`, { method: "POST" });
 
+  joints = (id: string) => this.#json<messages.JointsInfo>(`clips/${encodeURIComponent(id)}/joints`);
+  nameJoints = (id: string, roles: messages.RolesRequest["roles"]) =>
+    this.#json<messages.ClipInfo>(`clips/${encodeURIComponent(id)}/roles`, {
+      method: "POST",
+      json: { roles },
+      seconds: 120,
+    });
+
   motion = async (id: string): Promise<Clip> =>
     decode(await this.#bytes(`clips/${encodeURIComponent(id)}/motion`, { seconds: 120 }));
 

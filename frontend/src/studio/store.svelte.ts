@@ -19,7 +19,7 @@ const BEGUN = "mien: begun";
 type StackHistory = histories.History<Stack>;
 
 /** Which dialog is open. */
-export type Dialog = "" | "export" | "keys" | "palette" | "help";
+export type Dialog = "" | "export" | "joints" | "keys" | "palette" | "help";
 
 export class Studio {
   readonly playback = new Playback();
@@ -33,6 +33,8 @@ export class Studio {
   dialog = $state<Dialog>("");
   /** Whether original and edit go different ways, or at different speeds. */
   parting = $state(false);
+  /** The joint that a dialog speaks of, to be marked in the view. */
+  pointed = $state("");
   /** While it is held, the original is shown in place of the edit. */
   showsOriginal = $state(false);
   reach = $state<Reach>("there");
@@ -229,10 +231,11 @@ export class Studio {
 
   /** All that is worth keeping. */
   project(): Project {
-    const clips = this.clips.map(({ id, name }) => ({
+    const clips = this.clips.map(({ id, name, roles }) => ({
       id,
       name,
       stack: this.#histories[id]?.present.value ?? stacks.EMPTY,
+      roles,
     }));
     const view = { ...$state.snapshot(this.view), saved: Date.now() };
     return { clips, current: this.current, view, mien_project: 1 };
@@ -241,6 +244,13 @@ export class Studio {
   /** How many layers a clip has, for lists. */
   layersOf(id: string): number {
     return this.#histories[id]?.present.value.layers.length ?? 0;
+  }
+
+  /** Say which joint of the clip plays which role; none, and they are as found. Throws what is wrong with it. */
+  async nameJoints(roles: ClipInfo["roles"]): Promise<void> {
+    const named = await this.api.nameJoints(this.current, roles);
+    this.clips = this.clips.map((clip) => (clip.id === named.id ? named : clip));
+    if (this.current === named.id) await this.select(named.id);
   }
 
   /** Close a dialog, unless another one is open by now. */

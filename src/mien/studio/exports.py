@@ -6,22 +6,25 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from ..emotion.recipe_text import format_recipe
 from ..errors import MienError
 from ..formats import bvh
+from ..kinematics.body import Body
+from ..kinematics.roles import format_map
 from ..motion import Motion
 from ..recipe import Recipe
+from .copied import recipe_text
 from .messages import Value
 
 TYPES = {
     "bvh": "text/plain; charset=utf-8",
     "recipe": "application/toml",
+    "map": "application/toml",
     "png": "image/png",
     "gif": "image/gif",
     "mp4": "video/mp4",
     "html": "text/html; charset=utf-8",
 }
-SUFFIXES = {"recipe": "toml"}
+ENDS = {"recipe": "_edited.toml", "map": "_map.toml"}
 MOST_PIXELS = 8000
 
 
@@ -34,7 +37,7 @@ def export(kind: str, before: Motion, after: Motion, recipe: Recipe, options: Ma
 
 def file_name(clip: str, kind: str) -> str:
     """Return what a file of a kind is called that is made of a clip."""
-    return f"{Path(clip).stem}_edited.{SUFFIXES.get(kind, kind)}"
+    return f"{Path(clip).stem}{ENDS.get(kind, f'_edited.{kind}')}"
 
 
 def _bvh(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
@@ -42,7 +45,14 @@ def _bvh(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Va
 
 
 def _recipe(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
-    return format_recipe(recipe).encode()
+    return recipe_text(recipe, before.skeleton.roles).encode()
+
+
+def _map(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
+    """Return a map file of the roles as they are, named or found."""
+    body, names = Body.of(before), before.skeleton.names
+    found = {role: names[joint] for role, joint in body.roles.items()}
+    return format_map(dict(before.skeleton.roles) | found).encode()
 
 
 def _png(before: Motion, after: Motion, recipe: Recipe, options: Mapping[str, Value]) -> bytes:
@@ -85,6 +95,7 @@ def _whole(options: Mapping[str, Value], name: str, usual: int, low: int, high: 
 MAKERS: Mapping[str, Callable[..., bytes]] = {
     "bvh": _bvh,
     "recipe": _recipe,
+    "map": _map,
     "png": _png,
     "gif": _film("gif"),
     "mp4": _film("mp4"),

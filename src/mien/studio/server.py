@@ -32,9 +32,12 @@ from .messages import (
     EditRequest,
     ExportRequest,
     Hello,
+    JointsInfo,
     Project,
     Readings,
+    RolesRequest,
 )
+from .naming import joints as joints_of
 from .pictures import preset_picture
 from .security import App, Guard
 from .session import Session, SupersededError
@@ -112,6 +115,15 @@ def _clips(app: FastAPI, session: Session) -> None:
         clip = session.clip(identity)
         return Response(encode(clip.motion, clip.id, like=clip.figure), media_type=BINARY)
 
+    @app.get("/api/clips/{identity}/joints")
+    def joints(identity: str) -> JointsInfo:
+        return joints_of(session.clip(identity).motion)
+
+    @app.post("/api/clips/{identity}/roles")
+    def name(identity: str, request: RolesRequest) -> ClipInfo:
+        with session.alone():
+            return session.name_joints(identity, request.roles)
+
     @app.get("/api/presets/{name:path}.png")
     def picture(name: str) -> Response:
         return Response(preset_picture(name, session.workspace.folder), media_type="image/png")
@@ -160,7 +172,8 @@ def _edits(app: FastAPI, session: Session) -> None:
     def copy(request: EditRequest) -> Copied:
         with session.alone():
             clip = session.clip(request.clip)
-            return copied(clip.name, request.stack, session.recipe(clip.id, request.stack))
+            roles = clip.motion.skeleton.roles
+            return copied(clip.name, request.stack, session.recipe(clip.id, request.stack), roles)
 
     @app.post("/api/export")
     def give(request: ExportRequest) -> Response:
@@ -190,7 +203,12 @@ def _projects(app: FastAPI, session: Session) -> None:
             found = TypeAdapter(Project).validate_python(json.loads(data))
         except (ValueError, ValidationError, RecursionError):
             raise FormatError("this is no project file of mien studio") from None
+        await run_in_threadpool(take, found)
         return found
+
+    def take(project: Project) -> None:
+        with session.alone():
+            session.take_roles(project)
 
 
 async def _body(request: Request) -> bytes:

@@ -1,7 +1,7 @@
 """What is open in the studio, and the edits that were made last: one thing is worked out at a time."""
 
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,10 +12,12 @@ from ..emotion.resolve import done
 from ..errors import BodyError, FormatError, MienError
 from ..formats import load
 from ..kinematics.body import Body
+from ..kinematics.roles import known_roles
 from ..motion import Motion
 from ..recipe import Recipe
 from ..render.figure import Figure
-from .messages import ClipInfo, EditRequest, Stack
+from .messages import ClipInfo, EditRequest, Project, Stack
+from .naming import fits, own_roles
 from .stack import recipe_of
 from .workspace import Workspace
 
@@ -52,7 +54,8 @@ class Clip:
         """Return what the page shows of it in a list."""
         motion = self.motion
         joints = len(motion.skeleton)
-        return ClipInfo(self.id, self.name, len(motion), joints, motion.fps, motion.duration, self.problem)
+        size = len(motion), joints, motion.fps, motion.duration
+        return ClipInfo(self.id, self.name, *size, self.problem, dict(motion.skeleton.roles))
 
 
 class Session:
@@ -70,12 +73,15 @@ class Session:
     def open(self, name: str, data: bytes) -> ClipInfo:
         """Open a clip from the bytes of its file; one that cannot be read leaves nothing behind.
 
-        Raises ``FormatError`` with what is wrong with it.
+        Where no body is found, and a person named the joints of an open clip of the same skeleton, they are
+        named alike. Raises ``FormatError`` with what is wrong with it.
         """
         with self._files:
             known = set(self.workspace.names())
             identity = self.workspace.keep(name, data)
         try:
+            if self.clip(identity).problem:
+                self._keep_roles(identity, self._roles_of_others(identity))
             return self.clip(identity).info()
         except MienError as error:
             if identity not in known:
@@ -114,9 +120,36 @@ class Session:
             name = self.workspace.names().get(identity)
             if name is None:
                 raise FormatError("that clip is not open any more; open its file again")
-            motion = load(path).with_(name=Path(name).stem)
+            motion = load(path, roles=self.workspace.roles(identity)).with_(name=Path(name).stem)
             known = self._clips[identity] = Clip(identity, name, motion)
         return known
+
+    def name_joints(self, identity: str, roles: Mapping[str, str]) -> ClipInfo:
+        """Say which joint of a clip plays which role, from now on; raises ``BodyError`` where that cannot be.
+
+        Without any roles the body is as it is found.
+        """
+        self._keep_roles(identity, own_roles(self.clip(identity).motion, roles))
+        return self.clip(identity).info()
+
+    def take_roles(self, project: Project) -> None:
+        """Keep the roles that a project file says for its clips, open or not."""
+        for clip in project.clips:
+            if clip.roles:
+                self._keep_roles(clip.id, known_roles(clip.roles, clip.name))
+
+    def _keep_roles(self, identity: str, roles: Mapping[str, str]) -> None:
+        with self._files:
+            self.workspace.keep_roles(identity, roles)
+        self._clips.pop(identity, None)
+        for key in [key for key in list(self._edits) if key[0] == identity]:
+            self._edits.pop(key, None)
+
+    def _roles_of_others(self, identity: str) -> dict[str, str]:
+        """Return the roles that a person named in an open clip of the same skeleton, first in the clip itself."""
+        motion, own = self.clip(identity).motion, self.workspace.roles(identity)
+        others = (self.workspace.roles(other) for other in self.workspace.names())
+        return next((roles for roles in (own, *others) if roles and fits(motion, roles)), own)
 
     def recipe(self, identity: str, stack: Stack) -> Recipe:
         """Return the recipe of a stack for a clip."""
