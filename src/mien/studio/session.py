@@ -146,7 +146,7 @@ class Session:
             self._edits.pop(key, None)
 
     def _roles_of_others(self, identity: str) -> dict[str, str]:
-        """Return the roles that a person named in an open clip of the same skeleton, first in the clip itself."""
+        """Return the roles that a person named in this clip, or else in an open one of its skeleton."""
         motion, own = self.clip(identity).motion, self.workspace.roles(identity)
         others = (self.workspace.roles(other) for other in self.workspace.names())
         return next((roles for roles in (own, *others) if roles and fits(motion, roles)), own)
