@@ -81,6 +81,15 @@ export interface ExportRequest {
   stack: Stack;
   kind: "bvh" | "recipe" | "map" | "png" | "gif" | "mp4" | "html" | "project";
   options: Record<string, boolean | number | string | string[] | number[][] | null>;
+  client: string;
+}
+
+/** What is being worked out for a page. */
+export interface WorkInfo {
+  kind: string;
+  what: string;
+  share: number | null;
+  seconds: number;
 }
 
 /** A clip that is open. */

@@ -33,7 +33,8 @@ export class Answers {
   #clip = "";
   #wantsNine = false;
   #turn = 0;
-  readonly #client = crypto.randomUUID();
+  /** Tells this page from others. */
+  readonly client = crypto.randomUUID();
   readonly #edits: Latest<EditRequest, Clip>;
   readonly #readings: Latest<EditRequest, Readings>;
   readonly #checks: Latest<EditRequest, Checks>;
@@ -134,7 +135,7 @@ export class Answers {
   }
 
   #request(stack: Stack, live: boolean): EditRequest {
-    return { clip: this.#clip, stack, live, client: this.#client, turn: ++this.#turn };
+    return { clip: this.#clip, stack, live, client: this.client, turn: ++this.#turn };
   }
 
   #edited(motion: Clip, request: EditRequest): void {

@@ -10,6 +10,7 @@ import { Notices } from "./notices.svelte";
 import { Keeper, Tabs, keptHere, newer, type Keeping } from "./project";
 import * as stacks from "./stack";
 import { freshView, isOn, readView, type Toggle, type View } from "./view";
+import { Work } from "./work.svelte";
 
 /** Milliseconds in which a second change of the same kind belongs to the first. */
 const QUICK = 600;
@@ -25,6 +26,7 @@ export class Studio {
   readonly playback = new Playback();
   readonly notices = new Notices();
   readonly answers: Answers;
+  readonly work: Work;
   hello = $state.raw<Hello | null>(null);
   clips = $state.raw<readonly ClipInfo[]>([]);
   current = $state("");
@@ -66,6 +68,7 @@ export class Studio {
       (sentence) => this.notices.error(sentence),
       () => this.answers.measure(this.stack, this.view.curves),
     );
+    this.work = new Work(() => api.progress(this.answers.client));
     this.#keeper = new Keeper(
       shelf,
       (project, last) => api.keepProject(project, last),

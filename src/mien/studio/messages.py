@@ -75,6 +75,21 @@ class ExportRequest:
     stack: Stack
     kind: ExportKind
     options: dict[str, Value] = field(default_factory=dict)
+    client: str = ""
+
+
+@dataclass(frozen=True)
+class WorkInfo:
+    """What is being worked out for a page.
+
+    ``kind`` is that of the request (``edit``, ``export``), ``what`` is done now, ``share`` of all is behind
+    (None: not known), ``seconds`` since it was asked for.
+    """
+
+    kind: str
+    what: str
+    share: float | None
+    seconds: float
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,11 @@ from ..kinematics.roles import known_roles
 from ..motion import Motion
 from ..recipe import Recipe
 from ..render.figure import Figure
+from ..typing import Progress, untold
 from .messages import ClipInfo, EditRequest, Project, Stack
 from .naming import fits, own_roles
 from .stack import recipe_of
+from .work import Works
 from .workspace import Workspace
 
 KEPT = 6  # edits that are remembered, so that checks, curves and exports of one stack work it out once
@@ -63,6 +65,7 @@ class Session:
 
     def __init__(self, workspace: Workspace) -> None:
         self.workspace = workspace
+        self.works = Works()
         self.given: list[str] = []  # ids of the clips that were named when the studio was started
         self._lock = Lock()  # of what is worked out
         self._files = Lock()  # of what is open: the page is answered while an edit is worked out
@@ -155,31 +158,40 @@ class Session:
         """Return the recipe of a stack for a clip."""
         return recipe_of(stack, self.clip(identity).motion)
 
-    def edited(self, identity: str, stack: Stack, *, live: bool = False) -> Motion:
+    def edited(
+        self, identity: str, stack: Stack, *, live: bool = False, progress: Progress = untold
+    ) -> Motion:
         """Return what a stack makes of a clip; ``live`` without making it safe."""
         key = (identity, repr(stack), live)
         if key not in self._edits:
             recipe = self.recipe(identity, stack)
             recipe = replace(recipe, safe=recipe.safe and not live)
-            self._edits[key] = done(self.clip(identity).motion, recipe)
+            self._edits[key] = done(self.clip(identity).motion, recipe, progress=progress)
         self._edits.move_to_end(key)
         while len(self._edits) > KEPT:
             self._edits.popitem(last=False)
         return self._edits[key]
 
     @contextmanager
-    def turn(self, request: EditRequest, kind: str) -> Iterator[None]:
+    def turn(self, request: EditRequest, kind: str) -> Iterator[Progress]:
         """Wait for the turn of a request; raises ``SupersededError`` where a newer one of its kind has come.
 
-        ``kind`` keeps apart what does not replace each other, such as an edit and its checks.
+        ``kind`` keeps apart what does not replace each other, such as an edit and its checks. Yields who is
+        to be told how the work goes on, and ends it by the same error where a newer request comes meanwhile.
         """
         channel = f"{request.client}/{kind}"
         if request.client:
             self._turns[channel] = max(request.turn, self._turns.get(channel, request.turn))
-        with self._lock:
-            if request.client and request.turn < self._turns[channel]:
-                raise SupersededError("a newer request has come")
-            yield
+        with self.works.begun(request.client, kind) as tell:
+
+            def go_on(what: str, share: float | None) -> None:
+                if request.client and request.turn < self._turns[channel]:
+                    raise SupersededError("a newer request has come")
+                tell(what, share)
+
+            with self._lock:
+                go_on("beginning", None)
+                yield go_on
 
     @contextmanager
     def alone(self) -> Iterator[None]:
