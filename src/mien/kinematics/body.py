@@ -15,6 +15,7 @@ from ..motion import Motion
 from ..typing import Array, Integers
 from . import measures, stance, topology
 from . import roles as naming
+from .lead_in import lead_in
 from .parts import PARTS as PARTS
 from .roles import ARM as ARM
 from .roles import LEG as LEG
@@ -138,7 +139,7 @@ def _find(motion: Motion, chosen: Mapping[str, str]) -> dict[str, Any]:
         "forward": stood.forward,
         "leg_length": leg,
         "height": measures.height(skeleton, stood.heights, roles, leg, sole),
-        "floor": measures.floor(motion, roles, stood.up, sole),
+        "floor": measures.floor(motion[lead_in(motion) :], roles, stood.up, sole),
         "metres_per_unit": measures.metres_per_unit(leg),
         "neutral": stood.rotations,
         "parts_of": naming.parts(tree, roles, chains["neck"]),
