@@ -3,6 +3,7 @@
 import importlib.util
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
@@ -10,6 +11,8 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
+from mien import samples
+from mien.kinematics.body import Body
 from mien.motion import Motion, Skeleton
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -51,3 +54,21 @@ def rope() -> Motion:
     skeleton = Skeleton(("A", "B", "C"), np.array([-1, 0, 1]), offsets)
     rotations = np.tile([0.0, 0.0, 0.0, 1.0], (30, 3, 1))
     return Motion(skeleton, rotations, np.tile(offsets, (30, 1, 1)), 1 / 30, name="rope")
+
+
+@pytest.fixture(scope="session")
+def nameless() -> tuple[Motion, dict[str, str]]:
+    """A walk in which no body is found, and which joint plays which role in it.
+
+    Its names say nothing, and its right limbs are so much shorter than the left that they are no pair.
+    """
+    motion = samples.walk(seconds=2.5, fps=30.0).motion
+    skeleton, roles = motion.skeleton, Body.of(motion).roles
+    names = tuple(f"j{i:02}" for i in range(len(skeleton)))
+    right = [j for role in ("right_hip", "right_shoulder") for j in skeleton.descendants(roles[role])[1:]]
+    offsets, translations = np.array(skeleton.offsets), np.array(motion.translations)
+    offsets[right] *= 0.8
+    translations[:, right] *= 0.8
+    lopsided = replace(skeleton, names=names, offsets=offsets, layout=None)
+    made = motion.with_(skeleton=lopsided, translations=translations, source=None, name="nameless")
+    return made, {role: names[joint] for role, joint in roles.items()}

@@ -79,8 +79,17 @@ export interface EditRequest {
 export interface ExportRequest {
   clip: string;
   stack: Stack;
-  kind: "bvh" | "recipe" | "png" | "gif" | "mp4" | "html" | "project";
+  kind: "bvh" | "recipe" | "map" | "png" | "gif" | "mp4" | "html" | "project";
   options: Record<string, boolean | number | string | string[] | number[][] | null>;
+  client: string;
+}
+
+/** What is being worked out for a page. */
+export interface WorkInfo {
+  kind: string;
+  what: string;
+  share: number | null;
+  seconds: number;
 }
 
 /** A clip that is open. */
@@ -92,6 +101,27 @@ export interface ClipInfo {
   fps: number;
   duration: number;
   problem: string;
+  roles: Record<string, string>;
+}
+
+/** A role of the body, the joint that plays it now ("" for none), and whether no body is without it. */
+export interface RoleInfo {
+  role: string;
+  group: "trunk" | "left" | "right";
+  needed: boolean;
+  joint: string;
+}
+
+/** What roles are to be chosen from: the joints of a clip, parents first, and how deep each hangs. */
+export interface JointsInfo {
+  roles: RoleInfo[];
+  joints: string[];
+  depths: number[];
+}
+
+/** Say which joint plays which role, "" for none; without any, the body is as it is found. */
+export interface RolesRequest {
+  roles: Record<string, string>;
 }
 
 /** One parameter of an edit, for a slider, a switch or a menu. */
@@ -225,11 +255,12 @@ export interface Copied {
   python: string;
 }
 
-/** A clip of a project: by the hash of its file. */
+/** A clip of a project: by the hash of its file, with the roles of its joints as in ``ClipInfo``. */
 export interface ProjectClip {
   id: string;
   name: string;
   stack: Stack;
+  roles: Record<string, string>;
 }
 
 /** What a project file holds: clips by hash with their stacks, which one is shown, and the view. */

@@ -21,6 +21,7 @@ RAISED_WHERE = {
     "edits/parameters.py": {"TypeError"},  # a wrongly written edit, found when it is imported
     "__init__.py": {"AttributeError"},  # what a module's __getattr__ must raise
     "studio/session.py": {"SupersededError"},  # what tells the page that its newer request counts
+    "studio/work.py": {"StoppedError"},  # what ends a work that nobody waits for
     "cli/": {"Exit", "BadParameter", "UsageError", "SystemExit", "Abort"},
 }
 

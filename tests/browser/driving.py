@@ -87,7 +87,7 @@ class Server:
 
     def forget(self) -> None:
         """Make the workspace as new, for the next test; only the key stays."""
-        for name in ("clips.json", "project.json"):
+        for name in ("clips.json", "project.json", "roles.json"):
             (self.folder / name).unlink(missing_ok=True)
         shutil.rmtree(self.folder / "clips", ignore_errors=True)
 

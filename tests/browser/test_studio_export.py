@@ -254,3 +254,24 @@ class TestChecks:
         broken.press("Control+z")
         broken.settle()
         assert re.search("failing", broken.page.get_by_role("tab", name=re.compile("^Checks")).inner_text())
+
+
+def test_a_film_says_how_far_it_is_and_can_be_cancelled(walking: Studio) -> None:
+    walking.button("Export").click()
+    dialog = walking.page.get_by_role("dialog")
+    dialog.get_by_role("radio", name="Film (GIF)").check()
+    walking.type_only("Height", "1080")
+    make = dialog.get_by_role("button", name="Export", exact=True)
+    make.click()
+    bar = dialog.get_by_role("progressbar", name="How far the export is")
+    bar.wait_for()
+    walking.until("document.querySelector('dialog progress').position > 0.01")
+    first = bar.evaluate("bar => bar.position")
+    walking.until(f"document.querySelector('dialog progress').position > {first}")
+    assert dialog.get_by_text("drawing").is_visible()
+    dialog.get_by_role("button", name="Cancel").click()
+    bar.wait_for(state="detached")
+    assert make.is_enabled()
+    assert walking.page.get_by_role("alert").count() == 0, "who cancels knows it"
+    walking.close_dialog()
+    assert walking.export().startswith(b"HIERARCHY"), "the server has stopped, and does the next thing"

@@ -29,7 +29,11 @@ def test_five_minutes(studio: Studio, tmp_path: Path) -> None:
     )
     head.fill("20")
     head.press("Enter")
+    bar = studio.page.get_by_role("progressbar", name="How far the edit is")
+    said = "document.querySelector('progress')?.getAttribute('aria-valuetext') ?? ''"
+    studio.until(f"/^(posture|foot plant|checking|mending)/.test({said})")
     studio.settle(seconds=120)
+    assert bar.count() == 0
     assert studio.layers() == ["Posture"]
     studio.page.evaluate(f"{V}.playback.set({{ time: 290 }})")
     bent = studio.pixels()

@@ -7,6 +7,7 @@ import pytest
 
 import mien
 from mien import samples
+from mien.emotion.resolve import done
 from mien.emotion.safe import _when, limbs_of, mended, safe
 from mien.kinematics.body import Body
 from mien.motion import Motion
@@ -49,6 +50,20 @@ def test_its_history_replays_to_the_same_bytes(name: str) -> None:
     made = mien.edit(walk, name)
     assert {"repair", "restore"} & {step.edit for step in made.history}
     assert same(mien.apply(walk, made.history), made)
+
+
+def test_it_tells_what_it_does_and_does_the_same() -> None:
+    walk = samples.walk(seconds=3.0).motion
+    told: list[tuple[str, float | None]] = []
+    made = done(walk, mien.preset("weak"), progress=lambda what, share: told.append((what, share)))
+    assert same(made, mien.edit(walk, "weak"))
+    steps = [step.edit for step in mien.preset("weak").steps]
+    rounds = [f"mending, round {turn + 1}" for turn in range(len(told) - len(steps) - 3)]
+    assert rounds
+    assert [what for what, _ in told] == [*steps, "checking the original", "checking", "mending", *rounds]
+    shares = [share for _, share in told if share is not None]
+    assert (shares[0], sorted(shares), shares[len(steps)]) == (0.0, shares, 0.5)
+    assert told[-1][1] is None, "nobody knows how many rounds there will be"
 
 
 def broken_for_a_while(source: Motion) -> Motion:

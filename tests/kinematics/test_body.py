@@ -13,7 +13,7 @@ from mien.errors import BodyError
 from mien.kinematics.body import LEG, ROLES, SIDES, Body, read_map
 from mien.kinematics.fk import fk, world
 from mien.kinematics.heading import heading
-from mien.kinematics.roles import check
+from mien.kinematics.roles import check, format_map
 from mien.kinematics.tree import tree as make_tree
 from mien.motion import Motion, Skeleton
 from mien.rotations import quaternion as quat
@@ -311,6 +311,21 @@ def test_map_alone_suffices() -> None:
     place = {n: motion.skeleton.names[i] for i, n in enumerate(truth.motion.skeleton.names)}
     body = Body.of(motion, map={r: place[n] for r, n in truth.roles.items()})
     assert named(body, truth.motion) == dict(truth.roles)
+
+
+def test_a_map_can_say_that_there_is_no_such_joint() -> None:
+    motion = walk(skeleton="standard22").motion
+    body = Body.of(motion, map={"chest": "", "left_toe": ""})
+    assert set(Body.of(motion).roles) - set(body.roles) == {"chest", "left_toe"}
+    with pytest.raises(BodyError, match="left_knee"):
+        Body.of(motion, map={"left_knee": ""})
+
+
+def test_a_map_is_written_as_it_is_read(tmp_path: Any) -> None:
+    given = {"hips": 'the "root" \\ of it', "chest": "", "left_hip": "Oberschenkel ß"}
+    path = tmp_path / "body.toml"
+    path.write_text(format_map(given), encoding="utf-8")
+    assert read_map(path) == given
 
 
 def test_read_map(tmp_path: Any) -> None:

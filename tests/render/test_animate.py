@@ -64,6 +64,20 @@ def test_the_same_motion_gives_the_same_bytes(tmp_path, walk, suffix):
     assert a == b
 
 
+def test_it_tells_how_far_it_is_and_can_be_ended(tmp_path, walk):
+    told = []
+    animate(walk, tmp_path / "a.gif", fps=4, size=64, progress=lambda what, share: told.append((what, share)))
+    assert told == [*(("drawing", k / 5) for k in range(5)), ("writing", None)]
+
+    def enough(what, share):
+        if share > 0.5:
+            raise MienError("enough")
+
+    with pytest.raises(MienError, match="enough"):
+        animate(walk, tmp_path / "b.mp4", fps=4, size=64, progress=enough)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.gif"]
+
+
 def test_before_and_after_stand_side_by_side_and_the_shorter_waits(tmp_path, walk):
     path = animate(walk, tmp_path / "both.gif", against=walk[:16], fps=10, size=80)
     size, durations = gif_frames(path)

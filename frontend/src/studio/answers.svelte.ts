@@ -47,7 +47,8 @@ export class Answers {
   /** The rail that is there or was asked for last. */
   #wanted = "";
   #turn = 0;
-  readonly #client = crypto.randomUUID();
+  /** Tells this page from others. */
+  readonly client = crypto.randomUUID();
   readonly #edits: Latest<EditRequest, Clip>;
   readonly #readings: Latest<EditRequest, Readings>;
   readonly #checks: Latest<EditRequest, Checks>;
@@ -166,7 +167,7 @@ export class Answers {
     const points: Point[] = [];
     for (const value of stops(stack, knob)) {
       // In a line of its own, so that it overtakes no edit and none overtakes it.
-      const request = { ...this.#request(withValue(stack, knob, value), true), client: `${this.#client} rail` };
+      const request = { ...this.#request(withValue(stack, knob, value), true), client: `${this.client} rail` };
       points.push({ value, motion: await this.api.edit(request, signal, this.#patience()) });
     }
     return { knob, rest, points };
@@ -178,7 +179,7 @@ export class Answers {
   }
 
   #request(stack: Stack, live: boolean): EditRequest {
-    return { clip: this.#clip, stack, live, client: this.#client, turn: ++this.#turn };
+    return { clip: this.#clip, stack, live, client: this.client, turn: ++this.#turn };
   }
 
   #edited(motion: Clip, request: EditRequest): void {

@@ -63,6 +63,14 @@ export class Api {
   openSample = (name: string) =>
     this.#json<messages.ClipInfo>(`samples/${encodeURIComponent(name)}`, { method: "POST" });
 
+  joints = (id: string) => this.#json<messages.JointsInfo>(`clips/${encodeURIComponent(id)}/joints`);
+  nameJoints = (id: string, roles: messages.RolesRequest["roles"]) =>
+    this.#json<messages.ClipInfo>(`clips/${encodeURIComponent(id)}/roles`, {
+      method: "POST",
+      json: { roles },
+      seconds: 120,
+    });
+
   motion = async (id: string): Promise<Clip> =>
     decode(await this.#bytes(`clips/${encodeURIComponent(id)}/motion`, { seconds: 120 }));
 
@@ -85,10 +93,14 @@ export class Api {
     this.#json<messages.Copied>("copied", { method: "POST", json: request });
 
   /** The file and the name that the server gives it. */
-  exported = async (request: messages.ExportRequest): Promise<Download> => {
-    const answer = await this.#ask("export", { method: "POST", json: request, seconds: 900 });
+  exported = async (request: messages.ExportRequest, signal?: AbortSignal): Promise<Download> => {
+    const answer = await this.#ask("export", { method: "POST", json: request, seconds: 3600, signal });
     return { name: fileName(answer.headers.get("Content-Disposition")), data: await answer.blob() };
   };
+
+  /** What the server works out for this page. */
+  progress = (client: string) =>
+    this.#json<messages.WorkInfo[]>(`progress?client=${encodeURIComponent(client)}`);
 
   /** An address that an <img> can show: pictures cannot carry the token in their header themselves. */
   presetPicture = async (name: string): Promise<string> => {

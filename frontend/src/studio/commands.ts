@@ -179,6 +179,13 @@ function editCommands({ studio }: Place): Command[] {
       can: studio.stack.layers.length > 0,
     },
     {
+      id: "joints",
+      name: "Name its joints…",
+      group: "Edit",
+      run: () => (studio.dialog = "joints"),
+      can: studio.clip !== undefined,
+    },
+    {
       id: "safe",
       name: "Make safe: mend what breaks the body",
       group: "Edit",

@@ -90,22 +90,30 @@ export function saveProject(studio: Studio, name = ""): void {
   studio.notices.done("The project was saved to your downloads.");
 }
 
-/** Have the server make a file, and save it; without a name by the one that the server gives it. */
+/**
+ * Have the server make a file, and save it, without a name by the one that the server gives it; says whether that
+ * was done. Where `signal` ends it, nothing is said.
+ */
 export async function exportFile(
   studio: Studio,
   kind: ExportRequest["kind"],
   options: ExportRequest["options"],
-  name = "",
+  { name = "", signal }: { name?: string; signal?: AbortSignal } = {},
 ): Promise<boolean> {
+  const { current: clip, stack } = studio;
+  const end = studio.work.begin();
   try {
-    const made = await studio.api.exported({ clip: studio.current, stack: studio.stack, kind, options });
+    const request = { clip, stack, kind, options, client: studio.answers.client };
+    const made = await studio.api.exported(request, signal);
     const file = { ...made, name: name || made.name };
     give(file);
     studio.notices.done(`${file.name} was saved to your downloads.`);
     return true;
   } catch (problem) {
-    studio.notices.error(`Not exported: ${asSentence(problem)}`);
+    if (!signal?.aborted) studio.notices.error(`Not exported: ${asSentence(problem)}`);
     return false;
+  } finally {
+    end();
   }
 }
 

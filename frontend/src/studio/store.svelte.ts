@@ -11,6 +11,7 @@ import { Keeper, Tabs, keptHere, newer, type Keeping } from "./project";
 import { withValue, type Knob } from "./rail";
 import * as stacks from "./stack";
 import { freshView, isOn, readView, type Toggle, type View } from "./view";
+import { Work } from "./work.svelte";
 
 /** Milliseconds in which a second change of the same kind belongs to the first. */
 const QUICK = 600;
@@ -20,12 +21,13 @@ const BEGUN = "mien: begun";
 type StackHistory = histories.History<Stack>;
 
 /** Which dialog is open. */
-export type Dialog = "" | "export" | "keys" | "palette" | "help";
+export type Dialog = "" | "export" | "joints" | "keys" | "palette" | "help";
 
 export class Studio {
   readonly playback = new Playback();
   readonly notices = new Notices();
   readonly answers: Answers;
+  readonly work: Work;
   hello = $state.raw<Hello | null>(null);
   clips = $state.raw<readonly ClipInfo[]>([]);
   current = $state("");
@@ -34,6 +36,8 @@ export class Studio {
   dialog = $state<Dialog>("");
   /** Whether original and edit go different ways, or at different speeds. */
   parting = $state(false);
+  /** The joint that a dialog speaks of, to be marked in the view. */
+  pointed = $state("");
   /** While it is held, the original is shown in place of the edit. */
   showsOriginal = $state(false);
   reach = $state<Reach>("there");
@@ -65,6 +69,7 @@ export class Studio {
       (sentence) => this.notices.error(sentence),
       () => this.answers.measure(this.stack, this.view.curves),
     );
+    this.work = new Work(() => api.progress(this.answers.client));
     this.#keeper = new Keeper(
       shelf,
       (project, last) => api.keepProject(project, last),
@@ -256,10 +261,11 @@ export class Studio {
 
   /** All that is worth keeping. */
   project(): Project {
-    const clips = this.clips.map(({ id, name }) => ({
+    const clips = this.clips.map(({ id, name, roles }) => ({
       id,
       name,
       stack: this.#histories[id]?.present.value ?? stacks.EMPTY,
+      roles,
     }));
     const view = { ...$state.snapshot(this.view), saved: Date.now() };
     return { clips, current: this.current, view, mien_project: 1 };
@@ -268,6 +274,13 @@ export class Studio {
   /** How many layers a clip has, for lists. */
   layersOf(id: string): number {
     return this.#histories[id]?.present.value.layers.length ?? 0;
+  }
+
+  /** Say which joint of the clip plays which role; none, and they are as found. Throws what is wrong with it. */
+  async nameJoints(roles: ClipInfo["roles"]): Promise<void> {
+    const named = await this.api.nameJoints(this.current, roles);
+    this.clips = this.clips.map((clip) => (clip.id === named.id ? named : clip));
+    if (this.current === named.id) await this.select(named.id);
   }
 
   /** Close a dialog, unless another one is open by now. */

@@ -7,6 +7,7 @@ import numpy as np
 from ..errors import MienError, unknown
 from ..kinematics.body import SIDES, Body
 from ..kinematics.fk import world
+from ..kinematics.lead_in import still_before, without_lead_in
 from ..motion import Motion
 from ..signal.derivatives import derivatives
 from ..typing import Array
@@ -20,6 +21,7 @@ def curve(motion: Motion, name: str, *, body: Body | None = None) -> tuple[str, 
 
     Heights are above the floor of ``body``, that of the motion unless given. Speeds are of all three axes.
     Both are metric by ``body.metres_per_unit``, which is an estimate.
+    Over a still before the action, such as a T-pose, curves are as if the body waited in its next pose.
     Raises ``MienError`` for another name, ``BodyError`` where no body is found.
 
     >>> from mien.samples import walk
@@ -28,6 +30,7 @@ def curve(motion: Motion, name: str, *, body: Body | None = None) -> tuple[str, 
     ('cm', (121,))
     """
     body = body or Body.of(motion)
+    motion = without_lead_in(motion, still_before(motion))
     if name.startswith(JOINT):
         joint = name.removeprefix(JOINT)
         if joint not in motion.skeleton.names:

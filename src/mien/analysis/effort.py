@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import MienError
 from ..kinematics.body import Body
 from ..kinematics.fk import world
-from ..kinematics.lead_in import lead_in
+from ..kinematics.lead_in import still_before
 from ..kinematics.mass import mass_model
 from ..motion import Motion, require_motion
 from ..signal.derivatives import derivatives
@@ -80,7 +80,7 @@ def effort(motion: Motion, *, body: Body | None = None) -> Effort:
     """
     motion = require_motion(motion)
     body = body or Body.of(motion)
-    start = lead_in(motion)
+    start = still_before(motion)
     motion = motion[start:]
     model = mass_model(motion, body)
     centres = model.centres(*world(motion)) / body.height

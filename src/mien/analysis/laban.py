@@ -14,7 +14,7 @@ import numpy as np
 from ..errors import MienError, unknown
 from ..kinematics.body import Body
 from ..kinematics.landmarks import INDEX, LANDMARKS, LIMB, TRUNK, landmarks
-from ..kinematics.lead_in import lead_in
+from ..kinematics.lead_in import still_before
 from ..motion import Motion, require_motion
 from ..signal.derivatives import derivatives
 from ..typing import Array, Integers
@@ -141,7 +141,7 @@ def features(motion: Motion, *, body: Body | None = None) -> Features:
     """
     motion = require_motion(motion)
     body = body or Body.of(motion)
-    start = lead_in(motion)
+    start = still_before(motion)
     motion = motion[start:]
     points = landmarks(motion, body).points / body.height
     frames = np.empty((len(motion), len(FEATURES)))

@@ -14,7 +14,7 @@ import numpy as np
 from ..errors import MienError
 from ..kinematics.body import ARM, LEG, SIDES, Body
 from ..kinematics.fk import world
-from ..kinematics.lead_in import lead_in
+from ..kinematics.lead_in import still_before
 from ..kinematics.poses import Pose, mean_rotation, segment_rotations
 from ..motion import Motion
 from ..rotations import quaternion
@@ -59,7 +59,7 @@ class Manner:
         Raises ``BodyError`` where no body is found.
         """
         body = body if body is not None else Body.of(motion)
-        start = lead_in(motion)
+        start = still_before(motion)
         motion = motion[start:] if start else motion
         turned = segment_rotations(motion, body)
         pose = {segment: mean_rotation(q) for segment, q in turned.items()}

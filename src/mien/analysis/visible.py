@@ -14,7 +14,7 @@ import numpy as np
 
 from ..kinematics.body import SIDES, Body
 from ..kinematics.fk import world
-from ..kinematics.lead_in import lead_in
+from ..kinematics.lead_in import still_before
 from ..motion import Motion
 from ..rotations import quaternion
 from ..typing import Array
@@ -54,7 +54,7 @@ class Look:
         """Return how somebody looks in a motion. Raises ``BodyError`` where no body is found."""
         body = body if body is not None else Body.of(motion)
         manner = Manner.of(motion, body=body)
-        above = world(motion)[1][lead_in(motion) :, body.roles["hips"]] @ body.up
+        above = world(motion)[1][still_before(motion) :, body.roles["hips"]] @ body.up
         return cls(manner, _arms(manner), float(np.median(above) / body.leg_length))
 
 

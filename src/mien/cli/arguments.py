@@ -65,7 +65,7 @@ def opened_body(path: Path, map_file: Path | None) -> "Motion":
     Raises ``MienError`` that names the clip where it has no body.
     """
     motion = opened(path, None, False, None)
-    if map_file and set(read_map(map_file).values()) <= set(motion.skeleton.names):
+    if map_file and set(read_map(map_file).values()) <= {*motion.skeleton.names, ""}:
         motion = opened(path, None, False, map_file)
     return with_body(path, motion)
 

@@ -17,7 +17,7 @@ from ..kinematics.body import Body
 from ..kinematics.parts import common_parts
 from ..motion import Motion
 from ..recipe import Recipe, Step
-from ..typing import Array
+from ..typing import Array, Progress, untold
 from .registry import EDITS
 
 MOST = 2.0  # times the strength that a step is written with
@@ -45,6 +45,7 @@ def apply(
     strength: Varying = 1.0,
     parts: Sequence[str] = (),
     span: tuple[float, float] | None = None,
+    progress: Progress = untold,
 ) -> Motion:
     """Apply a recipe and return a new motion whose history has one more step for each step done.
 
@@ -57,7 +58,8 @@ def apply(
             f"the span from {span[0]:g} to {span[1]:g} s holds nothing of the clip, which lasts "
             f"{motion.duration:g} s"
         )
-    for step in steps:
+    for number, step in enumerate(steps):
+        progress(step.edit, number / len(steps))
         motion = _apply_step(motion, step)
     return motion
 

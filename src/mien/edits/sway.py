@@ -66,7 +66,8 @@ def sway(
     Each factor is of what goes to and fro faster than 0.5 Hz; nothing is made up, so who stands still goes on
     standing still, and who turns a corner turns as far. At most 16 degrees are added to any tilt or turn.
     ``shift`` makes something up where no step is near: the weight goes from leg to leg every second or two,
-    as ``seed`` says, the pelvis moves there and its other side sinks. Raises ``BodyError`` where no body is found.
+    as ``seed`` says, the pelvis moves there and its other side sinks. Raises ``BodyError`` where no body is
+    found.
     """
     if hips_tilt == hips_turn == shoulders_tilt == shoulders_turn == 1.0 and shift == 0.0:
         return motion

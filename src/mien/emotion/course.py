@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..kinematics.lead_in import still_before
 from ..motion import Motion, require_motion
 from ..typing import Array
 from .model import EmotionModel
@@ -14,16 +15,19 @@ def course(motion: Motion, *, model: EmotionModel | None = None) -> tuple[Array,
     """Return the times (W,) of windows' middles in seconds and the places (W, 2) read in them.
 
     An edited motion is compared window by window with what it was made from, any other with how people
-    usually are. A motion shorter than a window is one window. Raises ``BodyError`` where no body is found.
+    usually are. A motion shorter than a window is one window; windows begin after a still such as a T-pose.
+    Raises ``BodyError`` where no body is found.
 
     >>> from mien.samples import walk
     >>> times, places = course(walk(seconds=4.0).motion)
     >>> places.shape
     (4, 2)
     """
-    frames = len(require_motion(motion))
+    still = still_before(require_motion(motion))
+    motion = motion[still:]
+    frames = len(motion)
     length = min(frames, max(round(WINDOW / motion.frame_time), 2))
     stride = max(round(STRIDE / motion.frame_time), 1)
     starts = np.arange(0, frames - length + 1, stride)
     places = [read(motion[start : start + length], model=model).place for start in starts.tolist()]
-    return (starts + 0.5 * (length - 1)) * motion.frame_time, np.array(places)
+    return (still + starts + 0.5 * (length - 1)) * motion.frame_time, np.array(places)

@@ -106,6 +106,7 @@ def read(motion: Motion, *, neutral: Motion | None = None, model: EmotionModel |
     ``neutral`` is a clip of the same person, best of the same action: the reading is then of what differs,
     which is much surer. Without it an edited motion is compared with what it was made from, which has gone
     through its changes of tempo too, so that they do not count; any other with how people usually are.
+    A still before the action, such as a T-pose that is left by a jump, does not count.
     ``model`` is a learned one (``load_model``), else the shipped one. Raises ``BodyError`` where no body is
     found.
 

@@ -10,6 +10,7 @@ from ..errors import RecipeError, unknown
 from ..kinematics.body import PARTS, ROLES
 from ..motion import Motion, require_motion
 from ..recipe import Recipe, Step, read_parts, read_span
+from ..typing import Progress, share_of, untold
 from . import files
 
 Steps = Recipe | Step | Iterable[Step]
@@ -66,19 +67,35 @@ def edit(
 
 
 def done(
-    motion: Motion, recipe: Recipe, *, strength: Strength = 1.0, parts: Parts = (), span: Span = None
+    motion: Motion,
+    recipe: Recipe,
+    *,
+    strength: Strength = 1.0,
+    parts: Parts = (),
+    span: Span = None,
+    progress: Progress = untold,
 ) -> Motion:
-    """Return ``motion`` after a recipe, and safe if it asks for that; arguments as in ``edit``."""
-    after = apply(motion, recipe, strength=strength, parts=parts, span=span)
+    """Return ``motion`` after a recipe, and safe if it asks for that; arguments as in ``edit``.
+
+    ``progress`` is told each edit, check and round of mending before it begins.
+    """
+    first = share_of(progress, 0.0, 0.5) if recipe.safe else progress
+    after = apply(motion, recipe, strength=strength, parts=parts, span=span, progress=first)
     if not recipe.safe:
         return after
     from .safe import safe
 
-    return safe(after)
+    return safe(after, progress=share_of(progress, 0.5, 1.0))
 
 
 def apply(
-    motion: Motion, recipe: Steps, *, strength: Strength = 1.0, parts: Parts = (), span: Span = None
+    motion: Motion,
+    recipe: Steps,
+    *,
+    strength: Strength = 1.0,
+    parts: Parts = (),
+    span: Span = None,
+    progress: Progress = untold,
 ) -> Motion:
     """Return ``motion`` after a recipe, a step or a list of steps; one more step of history for each done.
 
@@ -93,7 +110,9 @@ def apply(
     times = read_span(span)
     if times and not times[0] < times[1]:
         raise RecipeError(f"span must end after it starts, got {times}")
-    return pipeline.apply(motion, _recipe(recipe), strength=amount, parts=limits, span=times)
+    return pipeline.apply(
+        motion, _recipe(recipe), strength=amount, parts=limits, span=times, progress=progress
+    )
 
 
 def _recipe(steps: Steps, others: str = "") -> Recipe:

@@ -16,7 +16,7 @@ from ..edits import pipeline
 from ..kinematics.contacts import spans
 from ..motion import Motion
 from ..recipe import Step
-from ..typing import Array, Mask
+from ..typing import Array, Mask, Progress, untold
 
 LIMBS = ("head", "torso", "left_arm", "right_arm", "left_leg", "right_leg")
 THIRD = 1.0 / 3.0
@@ -33,15 +33,16 @@ ARM = ("hand", "wrist", "forearm", "upper_arm", "elbow", "shoulder", "clavicle")
 HEAD = ("head", "neck")
 
 
-def safe(motion: Motion) -> Motion:
+def safe(motion: Motion, *, progress: Progress = untold) -> Motion:
     """Return an edited motion that no check finds worse than its original, beyond what a check allows.
 
     A motion that passes, or has no edits, comes back as it is. Else its history has the steps that were
-    needed (``mended`` tells them). Raises ``BodyError`` where no body is found.
+    needed (``mended`` tells them). ``progress`` is told each check and round of mending before it begins; how
+    many rounds there will be nobody knows. Raises ``BodyError`` where no body is found.
     """
     if motion.reference is None or not motion.history:
         return motion
-    return _Search(motion, motion.reference).run()
+    return _Search(motion, motion.reference, progress).run()
 
 
 def mended(motion: Motion) -> tuple[str, ...]:
@@ -85,8 +86,10 @@ def _share(motion: Motion) -> float:
 class _Search:
     """What is looked for and what is known of it: how much of the original each limb needs, and when."""
 
-    def __init__(self, motion: Motion, original: Motion) -> None:
+    def __init__(self, motion: Motion, original: Motion, progress: Progress) -> None:
         self.motion = self.base = motion
+        self.original, self.progress = original, progress
+        progress("checking the original", 0.0)
         self.source = Scene.of(original)
         self.known = measured(self.source)
         self.plants = [Step(s.edit, s.parameters) for s in motion.history if s.edit == "foot_plant"][-1:]
@@ -95,13 +98,16 @@ class _Search:
 
     def run(self) -> Motion:
         """Return the safe motion."""
+        self.progress("checking", 0.4)
         report = self.check(self.motion)
         if not report.failed:
             return self.motion
+        self.progress("mending", None)
         self.base = pipeline.apply(self.motion, [Step("repair")])
         if severity(self.check(self.base)) > severity(report):
             self.base = self.motion
         for turn in range(ROUNDS):
+            self.progress(f"mending, round {turn + 1}", None)
             out = self.restored()
             report = self.check(out)
             if not report.failed:

@@ -15,6 +15,7 @@ from ..motion import Motion
 from ..typing import Array, Integers
 from . import measures, stance, topology
 from . import roles as naming
+from .lead_in import lead_in
 from .parts import PARTS as PARTS
 from .roles import ARM as ARM
 from .roles import LEG as LEG
@@ -103,6 +104,13 @@ class Body:
         return np.cross(self.up, self.forward)
 
 
+def guessed(motion: Motion) -> dict[str, str]:
+    """Return role -> joint name as they are found without a map; roles that are not seen are absent."""
+    tree, _, _ = _seen(motion)
+    found = topology.find(tree)
+    return {role: tree.names[found[role]] for role in ROLES if role in found}
+
+
 # A motion never changes, so what was found in it stays true for as long as it lives.
 _FOUND: WeakKeyDictionary[Motion, dict[Any, Any]] = WeakKeyDictionary()
 
@@ -112,11 +120,9 @@ _FRAMES = 64  # evenly spaced frames that the shape is read from
 def _find(motion: Motion, chosen: Mapping[str, str]) -> dict[str, Any]:
     """Return the fields of the body: first the roles, then what follows from them."""
     skeleton = motion.skeleton
-    pick = measures.evenly(len(motion), _FRAMES)
-    local, moved = motion.rotations[pick], _shape(motion, pick)
-    tree = make_tree(skeleton, local, moved)
+    tree, local, moved = _seen(motion)
     found = topology.find(tree) | naming.chosen(skeleton, chosen)
-    roles = {role: found[role] for role in ROLES if role in found}
+    roles = {role: found[role] for role in ROLES if role in found and chosen.get(role) != ""}
     naming.require(skeleton, roles)
     naming.check(tree, roles)
     leg = measures.leg_length(tree, roles)
@@ -133,11 +139,18 @@ def _find(motion: Motion, chosen: Mapping[str, str]) -> dict[str, Any]:
         "forward": stood.forward,
         "leg_length": leg,
         "height": measures.height(skeleton, stood.heights, roles, leg, sole),
-        "floor": measures.floor(motion, roles, stood.up, sole),
+        "floor": measures.floor(motion[lead_in(motion) :], roles, stood.up, sole),
         "metres_per_unit": measures.metres_per_unit(leg),
         "neutral": stood.rotations,
         "parts_of": naming.parts(tree, roles, chains["neck"]),
     }
+
+
+def _seen(motion: Motion) -> tuple[Tree, Array, Array]:
+    """Return the tree that roles are read from, with the rotations and translations of its frames."""
+    pick = measures.evenly(len(motion), _FRAMES)
+    local, moved = motion.rotations[pick], _shape(motion, pick)
+    return make_tree(motion.skeleton, local, moved), local, moved
 
 
 def _chains(tree: Tree, roles: Mapping[str, int]) -> dict[str, tuple[int, ...]]:

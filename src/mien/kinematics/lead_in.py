@@ -1,7 +1,8 @@
 """The still that many captures start with: a T-pose, and the few frames that rush from it to the action.
 
 Such frames are no movement. Filtered or retimed with the rest they would smear into it, so edits leave
-them out.
+them out, and so do readings, features and curves, whose speeds the jump would spoil. A T-pose that somebody
+leaves by moving, without a jump, is movement and stays.
 """
 
 import numpy as np
@@ -10,7 +11,10 @@ from ..motion import Motion
 from ..rotations import quaternion
 from ..typing import Array
 
-LONGEST = 0.25  # seconds
+LONGEST = 0.25  # seconds of the rush
+HELD = 3.0  # seconds that the pose may be held before it
+UNMOVED = 1e-4  # radians from frame to frame, on average over the joints: the same pose again, written anew
+ALONE = 5.0  # times what follows: a jump that is no part of a fast movement
 JUMP = 0.026  # radians, on average over the joints: one and a half degrees from one frame to the next
 RUSH = 5.24  # radians a second, on average over the joints: 300 degrees, faster than bodies move
 NEARER = 0.75  # the first pose turns joints by less than this share of what any later pose does
@@ -19,11 +23,37 @@ NEARER = 0.75  # the first pose turns joints by less than this share of what any
 def lead_in(motion: Motion) -> int:
     """Return how many frames at the start belong to a still such as a T-pose, 0 where there is none.
 
-    Such frames are left by a jump of more than one and a half degrees on average over the joints, by turns
-    more than twice as fast as nine in ten later frames; they lie within the first quarter second. A clip
+    The pose may be held, quite unmoved, for up to three seconds. It is left by a jump of more than one and a
+    half degrees on average over the joints, by turns more than twice as fast as nine in ten later frames, or
+    five times as fast as all in the quarter second that follows; they lie within a quarter second. A clip
     cut out of a fast movement starts like that too, so the jump must be faster than bodies move, or start
     from a pose much nearer to the rest pose than all that follows.
     """
+    held = _held(motion)
+    if not held:
+        return _rush(motion)
+    # At another frame rate a frame may have a little of the jump already.
+    return next((first + rush for first in (held, held + 1) if (rush := _rush(motion[first:]))), 0)
+
+
+def still_before(motion: Motion) -> int:
+    """Return how many frames at the start are no movement, for an edited motion those of its original.
+
+    Edits keep such frames where they are, and may make the jump that tells them harder to tell.
+    """
+    return lead_in(motion if motion.reference is None else motion.reference)
+
+
+def _held(motion: Motion) -> int:
+    """Return how many frames stand before the last one of the first pose; 0 where nothing follows it."""
+    if len(motion) < 2 or _turns(motion.rotations[:2])[0] > UNMOVED:
+        return 0
+    moved = _turns(motion.rotations[: int(HELD / motion.frame_time) + 2]) > UNMOVED
+    return int(moved.argmax())
+
+
+def _rush(motion: Motion) -> int:
+    """Return how many frames at the start rush from a still to the action, the still among them."""
     within = int(LONGEST / motion.frame_time) + 1
     if len(motion) < within + 4:
         return 0
@@ -31,6 +61,7 @@ def lead_in(motion: Motion) -> int:
         return 0
     turn = _turns(motion.rotations)
     rushed = turn[:within] > max(2.0 * float(np.percentile(turn[within:], 90)), 0.25 * JUMP)
+    rushed[0] |= turn[0] > ALONE * turn[1 : within + 1].max()
     if not rushed[0]:
         return 0
     mostly = np.cumsum(rushed) >= 0.75 * np.arange(1, within + 1)

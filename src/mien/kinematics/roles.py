@@ -20,8 +20,8 @@ OPTIONAL = {*TRUNK[1:], *(f"{s}_{r}" for s in SIDES for r in ("collar", "wrist",
 def read_map(path: str | Path) -> dict[str, str]:
     """Return role -> joint name from a map file: TOML with one table, ``[roles]``.
 
-    ``hips = "pelvis"`` says that the joint named pelvis is the hips. Raises ``BodyError`` if the
-    file cannot be read, is not TOML, or names a role that does not exist.
+    ``hips = "pelvis"`` says that the joint named pelvis is the hips, ``chest = ""`` that there is no chest.
+    Raises ``BodyError`` if the file cannot be read, is not TOML, or names a role that does not exist.
     """
     try:
         content = tomllib.loads(Path(path).read_text(encoding="utf-8"))
@@ -37,6 +37,13 @@ def read_map(path: str | Path) -> dict[str, str]:
     return known_roles(table, str(path))
 
 
+def format_map(roles: Mapping[str, str]) -> str:
+    """Return the text of a map file, which ``read_map`` reads back to the same roles."""
+    import tomli_w
+
+    return tomli_w.dumps({"roles": {role: roles[role] for role in ROLES if role in roles}})
+
+
 def known_roles(table: Any, where: str) -> dict[str, str]:
     """Return a table of role -> joint name; ``BodyError``, naming ``where``, if it is none."""
     if not isinstance(table, Mapping):
@@ -50,11 +57,16 @@ def known_roles(table: Any, where: str) -> dict[str, str]:
 
 
 def chosen(skeleton: Skeleton, names: Mapping[str, str]) -> dict[str, int]:
-    """Return role -> joint for a user's role -> name. Raises ``BodyError`` with the nearest names."""
+    """Return role -> joint for a user's role -> name; without those that are said to be missing ("").
+
+    Raises ``BodyError`` with the nearest names.
+    """
     out = {}
     for role, name in names.items():
         if role not in ROLES:
             raise BodyError(unknown("role", role, ROLES))
+        if not name:
+            continue
         if name not in skeleton.names:
             raise BodyError(f"{role}: {unknown('joint', name, skeleton.names)}")
         out[role] = skeleton.names.index(name)
@@ -85,7 +97,7 @@ def check(tree: Tree, roles: Mapping[str, int]) -> None:
         if above in roles and below in roles and not tree.between(roles[above], roles[below]):
             raise BodyError(
                 f"{below} ({tree.names[roles[below]]!r}) does not hang below {above} "
-                f"({tree.names[roles[above]]!r}); correct the map file"
+                f"({tree.names[roles[above]]!r}); one of them is another joint"
             )
     for role in ("hip", "shoulder"):
         for one, other in (SIDES, SIDES[::-1]):
@@ -93,7 +105,7 @@ def check(tree: Tree, roles: Mapping[str, int]) -> None:
             if tree.between(roles[a], roles[b]):
                 raise BodyError(
                     f"{b} ({tree.names[roles[b]]!r}) hangs below {a} ({tree.names[roles[a]]!r}): they are "
-                    "the two sides of one body; correct the map file"
+                    "the two sides of one body, so one of them is another joint"
                 )
 
 

@@ -1,5 +1,6 @@
 """Films of a motion: GIF through Pillow, MP4 through PyAV (the ``video`` extra)."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,7 +11,7 @@ from ..errors import MienError
 from ..formats import files
 from ..kinematics.body import Body
 from ..motion import Motion
-from ..typing import Array
+from ..typing import Array, Progress, untold
 from .figure import Figure
 from .ground import grid, shadow
 from .raster import draw, paste
@@ -36,6 +37,7 @@ def animate(
     colour: str | None = None,
     body: Body | None = None,
     force: bool = False,
+    progress: Progress = untold,
 ) -> Path:
     """Write a film of a motion to a ``.gif`` or ``.mp4`` file and return its path.
 
@@ -45,7 +47,7 @@ def animate(
     first holds its last frame. ``view`` is one of those of ``strip``, from where the body faces on
     average. ``fps`` defaults to the clip's own rate or the largest whole part of it up to 30. ``size``
     is the height of the picture, or (width, height) of each figure's panel. ``colour`` and ``body``
-    are as in ``strip``.
+    are as in ``strip``. ``progress`` is told before each picture; what it raises ends the film.
 
     The file appears whole or not at all. Raises ``MienError`` for another file ending, an unknown
     view, a rate or size out of range, or MP4 without PyAV; ``FormatError`` when the file exists and
@@ -65,7 +67,7 @@ def animate(
     panels = _panels(figure, before, beside, view, size)
     length = max(motion.duration, against.duration if against else 0.0)
     count = int(np.floor(length * rate + 1e-6)) + 1
-    pictures = (_picture(panels, k / rate) for k in range(count))
+    pictures = _pictures(panels, count, rate, progress)
     files.write(path, encode(path, pictures, rate))
     return path
 
@@ -135,6 +137,13 @@ def _extents(actor: _Actor) -> Array:
     solids = figure.solids(frames)
     reach = np.array([solids.bounds(k, axes[:2]) for k in range(len(frames))])
     return (reach - (actor.path[frames] @ axes[:2].T)[:, None]) / figure.size
+
+
+def _pictures(panels: list[_Panel], count: int, rate: float, progress: Progress) -> Iterator[Array]:
+    for k in range(count):
+        progress("drawing", k / count)
+        yield _picture(panels, k / rate)
+    progress("writing", None)
 
 
 def _picture(panels: list[_Panel], time: float) -> Array:

@@ -18,7 +18,8 @@ Value = bool | int | float | str | list[str] | list[list[float]] | None
 Strength = int | float | list[list[float]]  # a number, or (seconds, value)
 LayerKind = Literal["emotion", "edit", "place"]
 ValueKind = Literal["number", "whole", "flag", "choice", "text", "list"]
-ExportKind = Literal["bvh", "recipe", "png", "gif", "mp4", "html", "project"]
+ExportKind = Literal["bvh", "recipe", "map", "png", "gif", "mp4", "html", "project"]
+RoleGroup = Literal["trunk", "left", "right"]
 
 
 @dataclass(frozen=True)
@@ -74,13 +75,29 @@ class ExportRequest:
     stack: Stack
     kind: ExportKind
     options: dict[str, Value] = field(default_factory=dict)
+    client: str = ""
+
+
+@dataclass(frozen=True)
+class WorkInfo:
+    """What is being worked out for a page.
+
+    ``kind`` is that of the request (``edit``, ``export``), ``what`` is done now, ``share`` of all is behind
+    (None: not known), ``seconds`` since it was asked for.
+    """
+
+    kind: str
+    what: str
+    share: float | None
+    seconds: float
 
 
 @dataclass(frozen=True)
 class ClipInfo:
     """A clip that is open.
 
-    ``id`` is the SHA-256 of its file; ``problem`` says why it can only be looked at.
+    ``id`` is the SHA-256 of its file; ``problem`` says why it can only be looked at. ``roles`` is which joint
+    plays which role where a person said so ("" for a role that none plays), empty where it was found.
     """
 
     id: str
@@ -90,6 +107,33 @@ class ClipInfo:
     fps: float
     duration: float
     problem: str = ""
+    roles: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class RoleInfo:
+    """A role of the body, the joint that plays it now ("" for none), and whether no body is without it."""
+
+    role: str
+    group: RoleGroup
+    needed: bool
+    joint: str
+
+
+@dataclass(frozen=True)
+class JointsInfo:
+    """What roles are to be chosen from: the joints of a clip, parents first, and how deep each hangs."""
+
+    roles: list[RoleInfo]
+    joints: list[str]
+    depths: list[int]
+
+
+@dataclass(frozen=True)
+class RolesRequest:
+    """Say which joint plays which role, "" for none; without any, the body is as it is found."""
+
+    roles: dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -264,11 +308,12 @@ class Copied:
 
 @dataclass(frozen=True)
 class ProjectClip:
-    """A clip of a project: by the hash of its file."""
+    """A clip of a project: by the hash of its file, with the roles of its joints as in ``ClipInfo``."""
 
     id: str
     name: str
     stack: Stack
+    roles: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,11 @@
 
 import asyncio
 import json
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
 from dataclasses import asdict
 from pathlib import Path
+from threading import Event
 from time import perf_counter
 from typing import Any
 
@@ -32,14 +34,19 @@ from .messages import (
     EditRequest,
     ExportRequest,
     Hello,
+    JointsInfo,
     Project,
     Readings,
+    RolesRequest,
+    WorkInfo,
 )
+from .naming import joints as joints_of
 from .pictures import preset_picture
 from .security import App, Guard
 from .session import Session, SupersededError
 from .square import encode_square
 from .stack import asked
+from .work import StoppedError
 
 STATIC = Path(__file__).parent / "static"
 LARGEST_UPLOAD = 256 * 2**20
@@ -57,6 +64,7 @@ def make_app(session: Session, *, token: str, hosts: frozenset[str]) -> App:
     _failures(app)
     _clips(app, session)
     _edits(app, session)
+    _exports(app, session)
     _projects(app, session)
     if (STATIC / "index.html").is_file():
         app.mount("/", StaticFiles(directory=STATIC, html=True))
@@ -77,6 +85,7 @@ def _failures(app: FastAPI) -> None:
         return JSONResponse({"error": f"the message does not fit: {where}: {found.get('msg', '')}"}, 422)
 
     app.add_exception_handler(SupersededError, answer(409))
+    app.add_exception_handler(StoppedError, answer(409))
     app.add_exception_handler(MienError, answer(422))
     app.add_exception_handler(OSError, answer(500))
     app.add_exception_handler(Exception, answer(500))
@@ -112,6 +121,15 @@ def _clips(app: FastAPI, session: Session) -> None:
         clip = session.clip(identity)
         return Response(encode(clip.motion, clip.id, like=clip.figure), media_type=BINARY)
 
+    @app.get("/api/clips/{identity}/joints")
+    def joints(identity: str) -> JointsInfo:
+        return joints_of(session.clip(identity).motion)
+
+    @app.post("/api/clips/{identity}/roles")
+    def name(identity: str, request: RolesRequest) -> ClipInfo:
+        with session.alone():
+            return session.name_joints(identity, request.roles)
+
     @app.get("/api/presets/{name:path}.png")
     def picture(name: str) -> Response:
         return Response(preset_picture(name, session.workspace.folder), media_type="image/png")
@@ -120,10 +138,10 @@ def _clips(app: FastAPI, session: Session) -> None:
 def _edits(app: FastAPI, session: Session) -> None:
     @app.post("/api/edit")
     def edit(request: EditRequest) -> Response:
-        with session.turn(request, "edit"):
+        with session.turn(request, "edit") as progress:
             start = perf_counter()
             clip = session.clip(request.clip)
-            after = session.edited(clip.id, request.stack, live=request.live)
+            after = session.edited(clip.id, request.stack, live=request.live, progress=progress)
             said = {"steps": [step.edit for step in after.history], "notes": list(mended(after))}
             seconds = perf_counter() - start
             data = encode(after, clip.id, like=clip.figure, seconds=seconds, **said)
@@ -137,16 +155,16 @@ def _edits(app: FastAPI, session: Session) -> None:
 
     @app.post("/api/reading")
     def reading(request: EditRequest) -> Readings:
-        with session.turn(request, "reading"):
+        with session.turn(request, "reading") as progress:
             clip = session.clip(request.clip)
-            after = session.edited(clip.id, request.stack, live=request.live)
+            after = session.edited(clip.id, request.stack, live=request.live, progress=progress)
             return answers.readings(clip.motion, after, asked(request.stack))
 
     @app.post("/api/checks")
     def checks(request: EditRequest) -> Checks:
-        with session.turn(request, "checks"):
+        with session.turn(request, "checks") as progress:
             clip = session.clip(request.clip)
-            after = session.edited(clip.id, request.stack, live=request.live)
+            after = session.edited(clip.id, request.stack, live=request.live, progress=progress)
             return answers.checks(clip.motion, after)
 
     @app.post("/api/curves")
@@ -160,16 +178,29 @@ def _edits(app: FastAPI, session: Session) -> None:
     def copy(request: EditRequest) -> Copied:
         with session.alone():
             clip = session.clip(request.clip)
-            return copied(clip.name, request.stack, session.recipe(clip.id, request.stack))
+            roles = clip.motion.skeleton.roles
+            return copied(clip.name, request.stack, session.recipe(clip.id, request.stack), roles)
+
+    @app.get("/api/progress")
+    def progress(client: str) -> list[WorkInfo]:
+        return session.works.of(client)
+
+
+def _exports(app: FastAPI, session: Session) -> None:
+    def made(request: ExportRequest, gone: Event) -> Response:
+        with session.works.begun(request.client, "export", gone=gone) as progress:
+            with session.alone():
+                clip = session.clip(request.clip)
+                recipe = session.recipe(clip.id, request.stack)
+                after = session.edited(clip.id, request.stack, progress=progress)
+            progress("making the file", None)
+            data = export(request.kind, clip.motion, after, recipe, request.options, progress=progress)
+        return _file(data, file_name(clip.name, request.kind), TYPES[request.kind])
 
     @app.post("/api/export")
-    def give(request: ExportRequest) -> Response:
-        with session.alone():
-            clip = session.clip(request.clip)
-            recipe = session.recipe(clip.id, request.stack)
-            after = session.edited(clip.id, request.stack)
-        data = export(request.kind, clip.motion, after, recipe, request.options)
-        return _file(data, file_name(clip.name, request.kind), TYPES[request.kind])
+    async def give(asking: Request, request: ExportRequest) -> Response:
+        async with _listening(asking) as gone:
+            return await run_in_threadpool(made, request, gone)
 
 
 def _projects(app: FastAPI, session: Session) -> None:
@@ -190,7 +221,29 @@ def _projects(app: FastAPI, session: Session) -> None:
             found = TypeAdapter(Project).validate_python(json.loads(data))
         except (ValueError, ValidationError, RecursionError):
             raise FormatError("this is no project file of mien studio") from None
+        await run_in_threadpool(take, found)
         return found
+
+    def take(project: Project) -> None:
+        with session.alone():
+            session.take_roles(project)
+
+
+@asynccontextmanager
+async def _listening(request: Request) -> AsyncIterator[Event]:
+    """Yield what is set when nobody waits for the answer any more."""
+    gone = Event()
+
+    async def listen() -> None:
+        while (await request.receive())["type"] != "http.disconnect":
+            pass
+        gone.set()
+
+    listening = asyncio.create_task(listen())
+    try:
+        yield gone
+    finally:
+        listening.cancel()
 
 
 async def _body(request: Request) -> bytes:

@@ -1,7 +1,7 @@
 """What is open in the studio, and the edits that were made last: one thing is worked out at a time."""
 
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,11 +12,15 @@ from ..emotion.resolve import done
 from ..errors import BodyError, FormatError, MienError
 from ..formats import load
 from ..kinematics.body import Body
+from ..kinematics.roles import known_roles
 from ..motion import Motion
 from ..recipe import Recipe
 from ..render.figure import Figure
-from .messages import ClipInfo, EditRequest, Stack
+from ..typing import Progress, untold
+from .messages import ClipInfo, EditRequest, Project, Stack
+from .naming import fits, own_roles
 from .stack import recipe_of
+from .work import Works
 from .workspace import Workspace
 
 KEPT = 6  # edits that are remembered, so that checks, curves and exports of one stack work it out once
@@ -52,7 +56,8 @@ class Clip:
         """Return what the page shows of it in a list."""
         motion = self.motion
         joints = len(motion.skeleton)
-        return ClipInfo(self.id, self.name, len(motion), joints, motion.fps, motion.duration, self.problem)
+        size = len(motion), joints, motion.fps, motion.duration
+        return ClipInfo(self.id, self.name, *size, self.problem, dict(motion.skeleton.roles))
 
 
 class Session:
@@ -60,6 +65,7 @@ class Session:
 
     def __init__(self, workspace: Workspace) -> None:
         self.workspace = workspace
+        self.works = Works()
         self.given: list[str] = []  # ids of the clips that were named when the studio was started
         self._lock = Lock()  # of what is worked out
         self._files = Lock()  # of what is open: the page is answered while an edit is worked out
@@ -70,12 +76,15 @@ class Session:
     def open(self, name: str, data: bytes) -> ClipInfo:
         """Open a clip from the bytes of its file; one that cannot be read leaves nothing behind.
 
-        Raises ``FormatError`` with what is wrong with it.
+        Where no body is found, and a person named the joints of an open clip of the same skeleton, they are
+        named alike. Raises ``FormatError`` with what is wrong with it.
         """
         with self._files:
             known = set(self.workspace.names())
             identity = self.workspace.keep(name, data)
         try:
+            if self.clip(identity).problem:
+                self._keep_roles(identity, self._roles_of_others(identity))
             return self.clip(identity).info()
         except MienError as error:
             if identity not in known:
@@ -114,39 +123,75 @@ class Session:
             name = self.workspace.names().get(identity)
             if name is None:
                 raise FormatError("that clip is not open any more; open its file again")
-            motion = load(path).with_(name=Path(name).stem)
+            motion = load(path, roles=self.workspace.roles(identity)).with_(name=Path(name).stem)
             known = self._clips[identity] = Clip(identity, name, motion)
         return known
+
+    def name_joints(self, identity: str, roles: Mapping[str, str]) -> ClipInfo:
+        """Say which joint of a clip plays which role, from now on; raises ``BodyError`` where that cannot be.
+
+        Without any roles the body is as it is found.
+        """
+        self._keep_roles(identity, own_roles(self.clip(identity).motion, roles))
+        return self.clip(identity).info()
+
+    def take_roles(self, project: Project) -> None:
+        """Keep the roles that a project file says for its clips, open or not."""
+        for clip in project.clips:
+            if clip.roles:
+                self._keep_roles(clip.id, known_roles(clip.roles, clip.name))
+
+    def _keep_roles(self, identity: str, roles: Mapping[str, str]) -> None:
+        with self._files:
+            self.workspace.keep_roles(identity, roles)
+        self._clips.pop(identity, None)
+        for key in [key for key in list(self._edits) if key[0] == identity]:
+            self._edits.pop(key, None)
+
+    def _roles_of_others(self, identity: str) -> dict[str, str]:
+        """Return the roles that a person named in this clip, or else in an open one of its skeleton."""
+        motion, own = self.clip(identity).motion, self.workspace.roles(identity)
+        others = (self.workspace.roles(other) for other in self.workspace.names())
+        return next((roles for roles in (own, *others) if roles and fits(motion, roles)), own)
 
     def recipe(self, identity: str, stack: Stack) -> Recipe:
         """Return the recipe of a stack for a clip."""
         return recipe_of(stack, self.clip(identity).motion)
 
-    def edited(self, identity: str, stack: Stack, *, live: bool = False) -> Motion:
+    def edited(
+        self, identity: str, stack: Stack, *, live: bool = False, progress: Progress = untold
+    ) -> Motion:
         """Return what a stack makes of a clip; ``live`` without making it safe."""
         key = (identity, repr(stack), live)
         if key not in self._edits:
             recipe = self.recipe(identity, stack)
             recipe = replace(recipe, safe=recipe.safe and not live)
-            self._edits[key] = done(self.clip(identity).motion, recipe)
+            self._edits[key] = done(self.clip(identity).motion, recipe, progress=progress)
         self._edits.move_to_end(key)
         while len(self._edits) > KEPT:
             self._edits.popitem(last=False)
         return self._edits[key]
 
     @contextmanager
-    def turn(self, request: EditRequest, kind: str) -> Iterator[None]:
+    def turn(self, request: EditRequest, kind: str) -> Iterator[Progress]:
         """Wait for the turn of a request; raises ``SupersededError`` where a newer one of its kind has come.
 
-        ``kind`` keeps apart what does not replace each other, such as an edit and its checks.
+        ``kind`` keeps apart what does not replace each other, such as an edit and its checks. Yields who is
+        to be told how the work goes on, and ends it by the same error where a newer request comes meanwhile.
         """
         channel = f"{request.client}/{kind}"
         if request.client:
             self._turns[channel] = max(request.turn, self._turns.get(channel, request.turn))
-        with self._lock:
-            if request.client and request.turn < self._turns[channel]:
-                raise SupersededError("a newer request has come")
-            yield
+        with self.works.begun(request.client, kind) as tell:
+
+            def go_on(what: str, share: float | None) -> None:
+                if request.client and request.turn < self._turns[channel]:
+                    raise SupersededError("a newer request has come")
+                tell(what, share)
+
+            with self._lock:
+                go_on("beginning", None)
+                yield go_on
 
     @contextmanager
     def alone(self) -> Iterator[None]:

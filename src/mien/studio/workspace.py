@@ -1,20 +1,23 @@
 """Where the studio keeps what is open, so that a reload or a restart finds it again: a folder of its own.
 
 ``clips/HASH.bvh`` are the files as they came in, ``clips.json`` says which are open and what they are called,
-``project.json`` is the last state of the page, ``token`` is what the page shows to be let in.
+``roles.json`` has the roles of joints that a person named, ``project.json`` is the last state of the page,
+``token`` is what the page shows to be let in.
 """
 
 import json
 import os
 import re
 import secrets
+from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from ..errors import FormatError
+from ..errors import BodyError, FormatError
 from ..formats import files
+from ..kinematics.roles import known_roles
 
 HASH = re.compile(r"[0-9a-f]{64}")
 LONGEST_NAME = 120
@@ -73,6 +76,21 @@ class Workspace:
             for identity, name in names.items()
             if HASH.fullmatch(identity) and self.path(identity).is_file()
         }
+
+    def roles(self, identity: str) -> dict[str, str]:
+        """Return which joint of a clip plays which role, as somebody said; empty where nobody did."""
+        found = self._read("roles.json")
+        try:
+            return known_roles(found.get(identity, {}) if isinstance(found, dict) else {}, "roles")
+        except BodyError:
+            return {}  # not ours
+
+    def keep_roles(self, identity: str, roles: Mapping[str, str]) -> None:
+        """Keep the roles of a clip's joints; they stay when it is closed, for when it comes back."""
+        self.path(identity)
+        found = self._read("roles.json")
+        others = {k: v for k, v in found.items() if k != identity} if isinstance(found, dict) else {}
+        self._write("roles.json", others | ({identity: dict(roles)} if roles else {}))
 
     def project(self) -> Any:
         """Return the last state of the page as plain data, or None."""
