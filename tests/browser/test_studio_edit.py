@@ -185,7 +185,7 @@ def test_menus_by_keys(walking: Studio) -> None:
     focused = lambda: walking.page.evaluate("document.activeElement.innerText.trim()")  # noqa: E731
     assert focused().startswith("Keep feet on the floor")
     walking.press("End")
-    assert focused().startswith("Make safe")
+    assert focused().startswith("Name its joints")
     walking.press("Escape")
     assert menu.count() == 0
     assert focused() == "Edit"
