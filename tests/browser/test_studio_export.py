@@ -275,3 +275,18 @@ def test_a_film_says_how_far_it_is_and_can_be_cancelled(walking: Studio) -> None
     assert walking.page.get_by_role("alert").count() == 0, "who cancels knows it"
     walking.close_dialog()
     assert walking.export().startswith(b"HIERARCHY"), "the server has stopped, and does the next thing"
+
+
+def test_it_says_what_solo_leaves_out(walking: Studio) -> None:
+    walking.add("tired")
+    walking.add("Posture")
+    walking.button("Export").click()
+    dialog = walking.page.get_by_role("dialog")
+    assert "Without what is off" not in dialog.inner_text()
+    walking.close_dialog()
+    walking.press("b")  # bypass the selected layer
+    walking.settle()
+    walking.button("Export").click()
+    assert "Without what is off or not solo: posture." in dialog.inner_text()
+    dialog.get_by_role("radio", name="Project").check()
+    assert "Without what is off" not in dialog.inner_text(), "a project has all layers"

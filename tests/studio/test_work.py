@@ -30,12 +30,12 @@ def test_work_is_told_until_it_ends() -> None:
     works = Works()
     with works.begun("page", "edit") as tell, works.begun("other", "edit"):
         (waiting,) = works.of("page")
-        assert (waiting.what, waiting.share) == ("waiting", None)
+        assert (waiting.what, waiting.share) == ("waiting for the work before it", None)
         tell("posture", 0.25)
         with works.begun("page", "export"):
             first, second = works.of("page")
         assert (first.kind, first.what, first.share) == ("edit", "posture", 0.25)
-        assert (second.kind, second.what) == ("export", "waiting")
+        assert (second.kind, second.what) == ("export", "waiting for the work before it")
         assert first.seconds >= 0.0
         assert works.of("page") == [WorkInfo("edit", "posture", 0.25, works.of("page")[0].seconds)]
     assert works.of("page") == works.of("other") == []

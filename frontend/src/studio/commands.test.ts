@@ -20,3 +20,10 @@ it("finds all words anywhere, beginnings first, and nothing that cannot be done"
   expect(search(all, "(").map(({ name }) => name)).toEqual([]);
   expect(search(all, "")).toHaveLength(4);
 });
+
+it("puts a mood before a clip of that name", () => {
+  const sample = { ...command("Open the sample tired walk"), id: "sample-tired_walk" };
+  const mood = { ...command("Make it tired"), id: "mood-tired" };
+  expect(search([sample, mood], "tired").map(({ id }) => id)).toEqual(["mood-tired", "sample-tired_walk"]);
+  expect(search([sample, mood], "open tired")).toEqual([sample]);
+});

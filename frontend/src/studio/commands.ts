@@ -339,6 +339,9 @@ function helpCommands({ studio }: Place): Command[] {
   ];
 }
 
+/** Commands that leave the clip for another one. */
+const OTHER_CLIP = /^(sample|clip)-/;
+
 /** The commands that fit what was typed: every word of it somewhere, those that begin with it first. */
 export function search(commands: readonly Command[], typed: string): Command[] {
   const words = typed.toLowerCase().split(/\s+/).filter(Boolean);
@@ -348,7 +351,9 @@ export function search(commands: readonly Command[], typed: string): Command[] {
     if (!words.every((word) => text.includes(word))) return -1;
     const [first] = words;
     if (!first || name.startsWith(first)) return 0;
-    return name.split(/[^a-z0-9]+/).some((word) => word.startsWith(first)) ? 1 : 2;
+    // Who types "tired" wants the clip tired before he wants another clip that is called so.
+    const other = OTHER_CLIP.test(command.id) ? 0.5 : 0;
+    return other + (name.split(/[^a-z0-9]+/).some((word) => word.startsWith(first)) ? 1 : 2);
   };
   return commands
     .map((command) => ({ command, place: rank(command) }))

@@ -336,9 +336,13 @@ export class Studio {
 
   #goTo(history: StackHistory): void {
     if (history === this.#history) return;
+    const before = this.stack.layers;
     this.#put(history);
     this.#lately = { label: "", at: 0 };
-    if (!stacks.find(this.stack, this.selected)) this.selected = this.stack.layers.at(-1)?.id ?? "";
+    // What came back or changed is what is looked at next.
+    const changed = this.stack.layers.find((layer) => !before.includes(layer));
+    if (changed) this.selected = changed.id;
+    else if (!stacks.find(this.stack, this.selected)) this.selected = this.stack.layers.at(-1)?.id ?? "";
     this.answers.edit(this.stack, false);
     this.keep();
   }

@@ -181,3 +181,19 @@ it("lays no rail for what cannot be blended: seeds, frequencies, and curves", as
   await settle();
   expect(edits).toEqual([]);
 });
+
+it("selects the layer that undo or redo changes", async () => {
+  const { studio } = made();
+  await studio.begin();
+  studio.addLayer("emotion", "tired");
+  studio.addLayer("edit", "posture", { head: 10 });
+  const [tired, posture] = studio.stack.layers.map(({ id }) => id);
+  studio.changeLayer("strength of tired", tired!, { strength: 0.5 });
+  studio.selected = posture!;
+  studio.undo();
+  expect(studio.selected).toBe(tired);
+  studio.selected = tired!;
+  studio.undo();
+  studio.redo();
+  expect(studio.selected).toBe(posture);
+});

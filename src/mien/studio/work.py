@@ -42,7 +42,7 @@ class Works:
             with self._lock:
                 self._all[key] = client, WorkInfo(kind, what, share, 0.0), since
 
-        tell("waiting", None)
+        tell("waiting for the work before it", None)
         try:
             yield tell
         finally:
