@@ -249,6 +249,13 @@ export interface CurvesRequest {
   names: string[];
 }
 
+/** Ask for an edit in words; ``name`` is the file that it is to write, without its ending. */
+export interface CopiedRequest {
+  clip: string;
+  stack: Stack;
+  name: string;
+}
+
 /** The same edit for the command line and for Python. */
 export interface Copied {
   command: string;

@@ -19,11 +19,15 @@ from mien.kinematics.fk import world
 from .driving import Studio, V
 
 
-def copied(studio: Studio, what: str) -> str:
-    """Press a button that copies, and return what is in the clipboard then."""
+def copied(studio: Studio, what: str, name: str) -> str:
+    """Press a button that copies an edit into a file of that name; returns what is in the clipboard then."""
     studio.page.context.grant_permissions(["clipboard-read", "clipboard-write"], origin=studio.server.base)
     studio.button("Export").click()
     dialog = studio.page.get_by_role("dialog")
+    field = dialog.get_by_role("textbox", name="File name")
+    field.fill(name)
+    field.press("Tab")
+    studio.settle()
     dialog.get_by_role("button", name=what, exact=True).click()
     dialog.get_by_role("status").get_by_text("was copied").wait_for()
     text = str(studio.page.evaluate("navigator.clipboard.readText()"))
@@ -104,14 +108,15 @@ def test_copied_they_make_the_same_bytes(walking: Studio, clips: Path, tmp_path:
         walking.page.get_by_role("group", name="Parts").get_by_text("arms", exact=True).click()
         walking.settle()
     (tmp_path / "walk.bvh").write_bytes((clips / "walk.bvh").read_bytes())
-    exported, made = walking.export(), tmp_path / "walk_edited.bvh"
+    name = "so viel" if much else "walk_edited"
+    exported, made = walking.export(), tmp_path / f"{name}.bvh"
     assert exported != (clips / "walk.bvh").read_bytes()
-    command = copied(walking, "Copy as command")
+    command = copied(walking, "Copy as command", name)
     assert command.startswith("cat > " if much else "mien edit walk.bvh --emotion sad --parts arms")
     run(["sh", "-eu"], tmp_path, command)
     assert made.read_bytes() == exported
     made.unlink()
-    run([sys.executable, "-"], tmp_path, copied(walking, "Copy as Python"))
+    run([sys.executable, "-"], tmp_path, copied(walking, "Copy as Python", name))
     assert made.read_bytes() == exported
 
 

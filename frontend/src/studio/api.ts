@@ -89,7 +89,7 @@ export class Api {
   curves = (request: messages.CurvesRequest, signal?: AbortSignal) =>
     this.#json<messages.Curve[]>("curves", { method: "POST", json: request, seconds: 120, signal });
 
-  copied = (request: messages.EditRequest) =>
+  copied = (request: messages.CopiedRequest) =>
     this.#json<messages.Copied>("copied", { method: "POST", json: request });
 
   /** The file and the name that the server gives it. */

@@ -14,14 +14,16 @@ from .stack import active, varying
 MARK = "END_OF_RECIPE"
 
 
-def copied(clip: str, stack: Stack, recipe: Recipe, roles: Mapping[str, str]) -> Copied:
+def copied(clip: str, stack: Stack, recipe: Recipe, roles: Mapping[str, str], *, out: str = "") -> Copied:
     """Return the command and the lines of Python that do the recipe of a stack to a clip of that name.
 
     ``roles`` are those of its joints that a person named; the short command has a map file for them, the
-    long one has them in the recipe.
+    long one has them in the recipe. ``out`` is the file that they write; without it, CLIP_edited.bvh.
     """
-    command = _short(clip, stack, roles) or _long(clip, recipe, roles)
-    return Copied(command, _python(clip, recipe, roles))
+    out = out or target(clip)
+    out = f"./{out}" if out.startswith("-") else out
+    command = _short(clip, stack, roles, out) or _long(clip, recipe, roles, out)
+    return Copied(command, _python(clip, recipe, roles, out))
 
 
 def target(clip: str) -> str:
@@ -29,7 +31,7 @@ def target(clip: str) -> str:
     return f"{Path(clip).stem}_edited.bvh"
 
 
-def _short(clip: str, stack: Stack, roles: Mapping[str, str]) -> str:
+def _short(clip: str, stack: Stack, roles: Mapping[str, str], out: str) -> str:
     """Return the command with flags, where one emotion is all that is done; else nothing."""
     layers = active(stack)
     if len(layers) != 1 or layers[0].kind != "emotion":
@@ -46,14 +48,14 @@ def _short(clip: str, stack: Stack, roles: Mapping[str, str]) -> str:
         words += ["--span", f"{layer.span[0]!r},{layer.span[1]!r}", "--ease", repr(float(layer.ease))]
     words += [] if stack.foot_plant else ["--no-foot-plant"]
     words += [] if stack.safe else ["--no-safe"]
-    command = shlex.join([*words, "-o", target(clip)])
+    command = shlex.join([*words, "-o", out])
     return f"{_written(file, format_map(roles))}{command}" if roles else command
 
 
-def _long(clip: str, recipe: Recipe, roles: Mapping[str, str]) -> str:
+def _long(clip: str, recipe: Recipe, roles: Mapping[str, str], out: str) -> str:
     """Return the recipe as a file written by the shell, and the command that does it."""
     file = f"{Path(clip).stem}_edited.toml"
-    command = shlex.join(["mien", "edit", clip, "--recipe", file, "-o", target(clip)])
+    command = shlex.join(["mien", "edit", clip, "--recipe", file, "-o", out])
     return f"{_written(file, recipe_text(recipe, roles))}{command}"
 
 
@@ -67,13 +69,13 @@ def _written(file: str, text: str) -> str:
     return f"cat > {shlex.quote(file)} <<'{MARK}'\n{text.rstrip()}\n{MARK}\n"
 
 
-def _python(clip: str, recipe: Recipe, roles: Mapping[str, str]) -> str:
+def _python(clip: str, recipe: Recipe, roles: Mapping[str, str], out: str) -> str:
     given = f", roles={dict(roles)!r}" if roles else ""
     steps = "".join(f"    {step!r},\n" for step in recipe.steps).replace("    Step(", "    mien.Step(")
     return (
         f"import mien\n\nclip = mien.load({clip!r}{given})\nsteps = (\n{steps})\n"
         f"recipe = mien.Recipe({recipe.name!r}, steps, safe={recipe.safe})\n"
-        f"mien.save(mien.edit(clip, recipe), {target(clip)!r})\n"
+        f"mien.save(mien.edit(clip, recipe), {out!r})\n"
     )
 
 

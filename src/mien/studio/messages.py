@@ -299,6 +299,15 @@ class CurvesRequest:
 
 
 @dataclass(frozen=True)
+class CopiedRequest:
+    """Ask for an edit in words; ``name`` is the file that it is to write, without its ending."""
+
+    clip: str
+    stack: Stack
+    name: str = ""
+
+
+@dataclass(frozen=True)
 class Copied:
     """The same edit for the command line and for Python."""
 

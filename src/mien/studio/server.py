@@ -29,6 +29,7 @@ from .messages import (
     Checks,
     ClipInfo,
     Copied,
+    CopiedRequest,
     Curve,
     CurvesRequest,
     EditRequest,
@@ -175,11 +176,13 @@ def _edits(app: FastAPI, session: Session) -> None:
             return answers.curves(clip.motion, after, request.names)
 
     @app.post("/api/copied")
-    def copy(request: EditRequest) -> Copied:
+    def copy(request: CopiedRequest) -> Copied:
         with session.alone():
             clip = session.clip(request.clip)
             roles = clip.motion.skeleton.roles
-            return copied(clip.name, request.stack, session.recipe(clip.id, request.stack), roles)
+            recipe = session.recipe(clip.id, request.stack)
+            out = f"{request.name}.bvh" if request.name else ""
+            return copied(clip.name, request.stack, recipe, roles, out=out)
 
     @app.get("/api/progress")
     def progress(client: str) -> list[WorkInfo]:
