@@ -129,6 +129,18 @@ def test_a_t_pose_before_the_action(
     assert studio.playback("range") is None
 
 
+def test_a_curve_that_runs_out_of_its_lane_says_so(
+    walking: Studio, tmp_path: Path, clips: Path, with_t_pose: Callable[[Motion, int], Motion]
+) -> None:
+    """Four frames are too slow for a still: the hands fly, and the rest of the curve stays readable."""
+    timeline = walking.page.locator("section.timeline").last
+    assert "up to" not in timeline.text_content()
+    posed = tmp_path / "slower.bvh"
+    posed.write_bytes(bvh.render(with_t_pose(load(clips / "walk.bvh"), 4)))
+    walking.open(posed)
+    assert re.search(r"▲ up to \d+\.\d+ m/s", timeline.text_content())
+
+
 def test_space_plays_after_a_click(walking: Studio) -> None:
     """A button that the mouse has pressed keeps the focus, but Space does not press it again."""
     walking.mood("sad")
