@@ -14,6 +14,7 @@ from hypothesis import settings
 from mien import samples
 from mien.kinematics.body import Body
 from mien.motion import Motion, Skeleton
+from mien.rotations import quaternion
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = Path(os.environ.get("MIEN_DATA", ROOT.parent / "shared" / "data"))
@@ -72,3 +73,22 @@ def nameless() -> tuple[Motion, dict[str, str]]:
     lopsided = replace(skeleton, names=names, offsets=offsets, layout=None)
     made = motion.with_(skeleton=lopsided, translations=translations, source=None, name="nameless")
     return made, {role: names[joint] for role, joint in roles.items()}
+
+
+@pytest.fixture(scope="session")
+def with_t_pose() -> Callable[[Motion, int], Motion]:
+    """Put before a clip so many frames of a T-pose that rushes to it: rotations all but at rest."""
+
+    def made(motion: Motion, frames: int) -> Motion:
+        first = np.zeros_like(motion.rotations[:1])
+        first[..., 3] = 1.0
+        share = np.arange(frames)[:, None] / frames
+        ends = np.repeat(first, frames, 0), np.repeat(motion.rotations[:1], frames, 0)
+        places = np.repeat(motion.translations[:1], frames, 0)
+        return motion.with_(
+            rotations=np.concatenate([quaternion.slerp(*ends, share), motion.rotations]),
+            translations=np.concatenate([places, motion.translations]),
+            source=None,
+        )
+
+    return made

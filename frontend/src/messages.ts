@@ -6,6 +6,7 @@ export interface Frames {
   name: string;
   frames: number;
   frame_time: number;
+  still: number;
   joints: string[];
   parents: number[];
   moving: number[];

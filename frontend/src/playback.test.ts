@@ -26,6 +26,18 @@ describe("Playback", () => {
     expect(playback.time).toBeCloseTo(0.6);
   });
 
+  it("has a range to the end go along with the end, and no other", () => {
+    const playback = made();
+    playback.set({ range: [0.3, 2] });
+    playback.set({ duration: 3 });
+    expect(playback.range).toEqual([0.3, 3]);
+    playback.set({ duration: 1.5 });
+    expect(playback.range).toEqual([0.3, 1.5]);
+    playback.set({ range: [0.3, 1] });
+    playback.set({ duration: 3 });
+    expect(playback.range).toEqual([0.3, 1]);
+  });
+
   it("stops at the end where it does not loop", () => {
     const playback = made();
     playback.set({ playing: true, loop: "off", time: 1.95 });

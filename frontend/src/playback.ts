@@ -26,7 +26,10 @@ export class Playback {
 
   /** Take some fields, keep the time inside the clip and the range inside too, and tell who listens. */
   set(fields: Partial<Pick<Playback, "time" | "playing" | "speed" | "direction" | "loop" | "range" | "duration" | "frameTime">>): void {
+    const toEnd = this.range && this.range[1] >= this.duration - this.frameTime / 2;
     Object.assign(this, fields);
+    // A range up to the end goes along with the end, when an edit makes the clip longer.
+    if (toEnd && this.range && fields.range === undefined) this.range = [this.range[0], this.duration];
     if (this.range) {
       const low = clamp(Math.min(...this.range), 0, this.duration);
       const high = clamp(Math.max(...this.range), 0, this.duration);

@@ -521,6 +521,24 @@ class TestLayers:
         assert float(walking.typed("Time: start").input_value()) < 0.9
         assert walking.undo_name() == "Undo time of a layer"
 
+    @pytest.mark.parametrize(("name", "way"), [("start", 1), ("end", -1)])
+    def test_the_ends_of_a_bar_go_along_with_the_hand(self, walking: Studio, name: str, way: int) -> None:
+        walking.add("Posture")
+        lane = walking.slider("Posture: when").bounding_box()
+        grip = walking.slider(f"Posture: {name}")
+        before = middle(grip)[0]
+        walking.drag(middle(grip), *[(20 * way, 0)] * 15)
+        walking.settle()
+        frame = lane["width"] / 75.0
+        assert way * (middle(grip)[0] - before) == pytest.approx(300.0, abs=frame)
+        typed = float(walking.typed(f"Time: {name}").input_value())
+        gone = typed if name == "start" else walking.playback("duration") - typed
+        assert gone == pytest.approx(300.0 / frame / 30.0, abs=0.05)
+        assert walking.undo_name() == "Undo time of a layer"
+        walking.press("Control+z")
+        walking.settle()
+        assert walking.undo_name() == "Undo add posture", "the whole way is one step"
+
     def test_strength_over_time(self, walking: Studio, clips: Path) -> None:
         """Keys on the timeline: where they say 0 nothing is changed, where they say 1 all of it."""
         walking.tab("Body")

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from mien import samples
 from mien.formats import bvh
 from mien.motion import Motion
 
@@ -134,6 +135,9 @@ def test_what_has_no_body_is_looked_at(studio: Studio, rope: Motion, tmp_path: P
     assert studio.colours() > 100
     assert studio.moods.get_by_role("button", name="sad", exact=True).is_disabled()
     assert studio.slider("Valence").is_disabled()
+    layers = studio.part("Layers").inner_text()
+    assert "No body was found in this clip: it can only be looked at" in layers
+    assert "disc" not in layers, "nothing is offered that cannot be done"
 
 
 def test_closed_and_opened_again(studio: Studio, clips: Path) -> None:
@@ -146,6 +150,47 @@ def test_closed_and_opened_again(studio: Studio, clips: Path) -> None:
     studio.settle()
     assert open_clips(studio) == ["wave.bvh", "walk.bvh"]
     assert studio.layers() == ["Sad"], "its layers have come back with it"
+
+
+def test_many_clips(studio: Studio, tmp_path: Path) -> None:
+    """They leave room for the moods, are one stop of Tab, and the shown one is in sight."""
+    walk = samples.walk(seconds=1.0, fps=10.0).motion
+    files = [tmp_path / f"walk{number:02}.bvh" for number in range(20)]
+    for number, file in enumerate(files):
+        file.write_bytes(bvh.render(walk.with_(frame_time=0.1 + number / 100)))
+    studio.open(*files)
+    rows = studio.moods.get_by_role("region", name=re.compile("^Clips")).get_by_role("listitem")
+    assert rows.count() == 20
+    clips = rows.get_by_role("button", name=re.compile("^walk"))
+    whole = rows.first.locator("..").bounding_box()
+    assert 6 < whole["height"] / rows.first.bounding_box()["height"] < 10
+
+    def in_sight(number: int) -> bool:
+        box = rows.nth(number).bounding_box()
+        return whole["y"] - 1 <= box["y"] and box["y"] + box["height"] <= whole["y"] + whole["height"] + 1
+
+    clips.nth(17).click()
+    studio.settle()
+    studio.page.reload()
+    studio.settle()
+    assert clips.nth(17).get_attribute("aria-current") == "true"
+    assert in_sight(17)
+    assert not in_sight(0)
+    stops = rows.locator("button[tabindex='0'], button:not([tabindex])")
+    assert [text.split("\n")[0] for text in stops.all_inner_texts()] == ["walk17.bvh"]
+    focused = lambda: studio.page.evaluate("document.activeElement.innerText.split('\\n')[0]")  # noqa: E731
+    stops.focus()
+    studio.press("ArrowUp", "ArrowUp")
+    assert focused() == "walk15.bvh"
+    studio.press("Home", "ArrowDown", "Enter")
+    studio.settle()
+    assert clips.nth(1).get_attribute("aria-current") == "true"
+    assert in_sight(1)
+    studio.press("Delete")
+    studio.settle()
+    assert rows.count() == 19
+    studio.until("document.activeElement.innerText.startsWith('walk02')")
+    assert studio.button("Close walk05.bvh").count() == 1, "a screen reader finds the way to close"
 
 
 def test_a_project_as_a_file(

@@ -9,6 +9,10 @@ from typing import Any
 import pytest
 from PIL import Image
 
+from mien import load
+from mien.formats import bvh
+from mien.motion import Motion
+
 from .driving import Server, Studio, V, middle
 
 LINES = ("Height of the timeline", "Height of the layers")
@@ -93,6 +97,48 @@ def test_playing(walking: Studio) -> None:
     walking.press("l")
     walking.until(f"{V}.playback.playing")
     walking.press("Space")
+
+
+def test_a_t_pose_before_the_action(
+    studio: Studio, clips: Path, tmp_path: Path, with_t_pose: Callable[[Motion, int], Motion]
+) -> None:
+    """It is said, playing begins after it, and it leaves no trails."""
+    posed = tmp_path / "posed.bvh"
+    posed.write_bytes(bvh.render(with_t_pose(load(clips / "walk.bvh"), 3)))
+    view = studio.page.locator(".stage")
+    studio.open(clips / "walk.bvh")
+    assert "still" not in view.inner_text()
+    assert studio.playback("range") is None
+    studio.open(posed)
+    assert "The first 3 frames are a still before the action: edits leave it as it is" in view.inner_text()
+    start, end = studio.playback("range")
+    assert start == pytest.approx(3 / 30)
+    assert end == studio.playback("duration")
+    assert studio.playback("time") == start
+    studio.page.evaluate(f"{V}.playback.set({{ time: 0 }})")
+    studio.mood("tired")
+    assert studio.playback("range")[1] == studio.playback("duration"), "what takes longer plays to its end"
+    assert "The first 3 frames" in view.inner_text()
+    studio.page.evaluate(f"{V}.playback.set({{ playing: true, speed: 4 }})")
+    studio.until(f"{V}.playback.time > 1.5")
+    studio.until(f"{V}.playback.time < 1.5")
+    assert studio.playback("time") >= start, "the loop does not go back to the T-pose"
+    studio.press("k")
+    studio.page.get_by_role("button", name=re.compile("^walk")).first.click()
+    studio.settle()
+    assert studio.playback("range") is None
+
+
+def test_a_curve_that_runs_out_of_its_lane_says_so(
+    walking: Studio, tmp_path: Path, clips: Path, with_t_pose: Callable[[Motion, int], Motion]
+) -> None:
+    """Four frames are too slow for a still: the hands fly, and the rest of the curve stays readable."""
+    timeline = walking.page.locator("section.timeline").last
+    assert "up to" not in timeline.text_content()
+    posed = tmp_path / "slower.bvh"
+    posed.write_bytes(bvh.render(with_t_pose(load(clips / "walk.bvh"), 4)))
+    walking.open(posed)
+    assert re.search(r"▲ up to \d+\.\d+ m/s", timeline.text_content())
 
 
 def test_space_plays_after_a_click(walking: Studio) -> None:

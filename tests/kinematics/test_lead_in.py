@@ -10,21 +10,9 @@ from mien.kinematics.lead_in import lead_in, with_lead_in, without_lead_in
 from mien.rotations import quaternion
 
 
-def with_t_pose(motion, frames):
-    """The clip after ``frames`` of a T-pose that rushes to it: rotations all but at rest."""
-    first = np.zeros_like(motion.rotations[:1])
-    first[..., 3] = 1.0
-    share = np.arange(frames)[:, None] / frames
-    ramp = quaternion.slerp(np.repeat(first, frames, 0), np.repeat(motion.rotations[:1], frames, 0), share)
-    return motion.with_(
-        rotations=np.concatenate([ramp, motion.rotations]),
-        translations=np.concatenate([np.repeat(motion.translations[:1], frames, 0), motion.translations]),
-    )
-
-
 @pytest.mark.parametrize("fps", [30.0, 60.0, 120.0])
 @pytest.mark.parametrize("frames", [1, 3])
-def test_a_t_pose_before_a_walk_is_found(frames, fps):
+def test_a_t_pose_before_a_walk_is_found(with_t_pose, frames, fps):
     assert lead_in(with_t_pose(samples.walk(fps=fps).motion, frames)) == frames
 
 
@@ -83,7 +71,7 @@ def test_short_clips_have_none(frames):
     assert lead_in(samples.walk().motion[:frames]) == 0
 
 
-def test_taking_out_and_putting_back_changes_nothing():
+def test_taking_out_and_putting_back_changes_nothing(with_t_pose):
     motion = with_t_pose(samples.walk().motion, 3)
     back = with_lead_in(without_lead_in(motion, 3), motion, 3)
     np.testing.assert_allclose(back.rotations, motion.rotations, atol=1e-12)
@@ -91,7 +79,7 @@ def test_taking_out_and_putting_back_changes_nothing():
     assert without_lead_in(motion, 0) is motion
 
 
-def test_an_edit_keeps_the_t_pose_and_does_not_smear_it():
+def test_an_edit_keeps_the_t_pose_and_does_not_smear_it(with_t_pose):
     walk = samples.walk(fps=60.0).motion
     long = with_t_pose(walk, 1)
     alone = mien.apply(walk, [mien.Step("path_length", {"mid": 0.3, "boundary": "hold"})])

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import mien
 from mien import samples
 from mien.kinematics.body import Body
 from mien.motion import Motion
@@ -48,6 +49,16 @@ def test_what_travels_is_the_motion(walk: Motion) -> None:
     moved[:, head["moving"]] = arrays["translations"]
     np.testing.assert_allclose(moved, walk.translations, rtol=1e-6, atol=1e-4)
     assert set(np.unique(arrays["contacts"])) <= {0, 1}
+
+
+def test_a_still_before_the_action_is_told(
+    walk: Motion, with_t_pose: Callable[[Motion, int], Motion]
+) -> None:
+    assert unpacked(encode(walk, "walk"))[0]["still"] == 0
+    posed = with_t_pose(walk, 3)
+    assert unpacked(encode(posed, "walk"))[0]["still"] == 3
+    bent = mien.apply(posed, [mien.Step("posture", {"head": 20.0})])
+    assert unpacked(encode(bent, "walk"))[0]["still"] == 3, "an edit leaves it there"
 
 
 def test_axes_are_right_handed_and_the_unit_is_metres(walk: Motion) -> None:

@@ -140,10 +140,21 @@ export class Studio {
       return;
     }
     if (this.current !== id || !id) return;
+    this.#skipStill();
     const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.playback.set({ playing: !calm });
     this.answers.edit(this.stack, false);
     this.keep();
+  }
+
+  /** Let playing begin after a still, such as a T-pose: loops would jump at it. */
+  #skipStill(): void {
+    const head = this.answers.original?.head;
+    if (!head?.still) return;
+    const { frame_time: frameTime, still } = head;
+    const duration = (head.frames - 1) * frameTime;
+    const time = still * frameTime;
+    this.playback.set({ duration, frameTime, time, range: [time, duration], loop: "range" });
   }
 
   /**

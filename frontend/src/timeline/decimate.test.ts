@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import {
-  axisOf, band, columns, extent, heights, indexAt, isDense, line, points, readable, valueAt,
+  axisOf, band, beyond, columns, extent, heights, indexAt, isDense, line, points, readable, valueAt,
 } from "./decimate";
 
 const FRAMES = 36_000; // five minutes
@@ -61,6 +61,15 @@ it("an axis leaves out a jump at the start, and no other", () => {
   expect(made(calm.map((v, i) => (i < 4 ? 15 : v)))[1]).toBeLessThan(2.1);
   expect(made(calm.map((v, i) => (i === 50 ? 15 : v)))[1]).toBe(15);
   expect(made(calm.map((v, i) => (i < 4 ? 3 : v)))[1]).toBe(3);
+});
+
+it("what an axis leaves out is said", () => {
+  const at = [0, 0.1, 0.2, 0.3];
+  const curve = (before: number[], after: number[]) =>
+    ({ name: "hand speed", unit: "m/s", before, after, before_times: at, after_times: at });
+  expect(beyond(curve([1, 2, 1, 2], [1, 2, 0, 1]), 0, 2)).toBeNull();
+  expect(beyond(curve([9, 2, 1, 2], [15, 12, 0, 1]), 0, 2)).toEqual({ time: 0, value: 15 });
+  expect(beyond(curve([1, -5, 1, 2], [1, 2, NaN, 3]), 0, 2)).toEqual({ time: 0.1, value: -5 });
 });
 
 it("values have as many decimals as their axis deserves", () => {

@@ -89,7 +89,7 @@ export function extent(least: number, ...series: ArrayLike<number>[]): [number, 
   return [low - down, low - down + least];
 }
 
-/** The axis of a curve. A jump out of another pose at the start is left to run out of the picture. */
+/** The axis of a curve. A jump out of another pose at the start runs out of the picture (see `beyond`). */
 export function axisOf({ before_times, before, after_times, after, unit }: Curve): [number, number] {
   const whole = extent(leastRange(unit), before, after);
   const from = (times: number[], values: number[]) => values.slice(indexAt(times, START));
@@ -97,6 +97,21 @@ export function axisOf({ before_times, before, after_times, after, unit }: Curve
   if (!first.length && !second.length) return whole;
   const later = extent(leastRange(unit), first, second);
   return whole[1] - whole[0] > FAR * (later[1] - later[0]) ? later : whole;
+}
+
+/** What runs out of the picture: the farthest value above or below the axis, and when; null where all is in it. */
+export function beyond(curve: Curve, low: number, high: number): { time: number; value: number } | null {
+  let found: { time: number; value: number } | null = null;
+  let most = 0;
+  const series = [[curve.before_times, curve.before], [curve.after_times, curve.after]] as const;
+  for (const [times, values] of series)
+    values.forEach((value, i) => {
+      const out = Math.max(value - high, low - value);
+      if (!(out > most)) return; // what is no number neither
+      most = out;
+      found = { time: times[i], value };
+    });
+  return found;
 }
 
 /** A value with as many decimals as the range of its axis deserves. */

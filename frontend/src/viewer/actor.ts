@@ -95,10 +95,11 @@ export class Actor extends Group {
     fk(this.#pose, this.source.head.parents, this.#world);
     this.#figure.move(this.#world);
     this.#spots?.move(this);
-    const { step, count } = this.#travel ?? { step: 1, count: 0 };
+    const { step, count, first: action } = this.#travel ?? { step: 1, count: 0, first: 0 };
     for (const line of this.#lines.values()) {
-      const first = Math.max(0, Math.ceil((this.seconds - WINDOW) / step));
-      line.geometry.setDrawRange(first, Math.min(count, Math.floor((this.seconds + WINDOW) / step) + 1) - first);
+      const first = Math.max(action, Math.ceil((this.seconds - WINDOW) / step));
+      const end = Math.min(count, Math.floor((this.seconds + WINDOW) / step) + 1);
+      line.geometry.setDrawRange(first, Math.max(end - first, 0));
     }
   }
 

@@ -5,6 +5,7 @@ import type { Frames } from "../messages";
 import type { PoseSource } from "../motion/blend";
 import { fk, newPose, newWorld, positionOf } from "../motion/pose";
 import { add, cross, dot, scale, subtract, unit, type Vector } from "../motion/vectors";
+import { clamp } from "../playback";
 
 export interface Footprint {
   side: "left" | "right";
@@ -30,6 +31,8 @@ export interface Way {
 export interface Travel {
   readonly step: number;
   readonly count: number;
+  /** The first sample that is action, after a still such as a T-pose: nothing before it leaves a trace. */
+  readonly first: number;
   /** The mean direction faced, as an angle about up from Z to X. */
   readonly facing: number;
   readonly footprints: readonly Footprint[];
@@ -82,6 +85,7 @@ export function travelOf(source: PoseSource): Travel {
   const step = source.duration / (count - 1) || source.frameTime;
   const pose = newPose(head.joints.length);
   const world = newWorld(head.joints.length);
+  const first = clamp(Math.ceil((head.still * head.frame_time) / step - 1e-6), 0, count - 1);
   const roles = head.shape?.roles ?? {};
   const joint = (role: string): number => roles[role] ?? roles[ELSE[role] ?? ""] ?? -1;
   const trails: Record<string, Float32Array> = {};
@@ -94,7 +98,7 @@ export function travelOf(source: PoseSource): Travel {
     const at = (j: number): Vector => inRoom(head, positionOf(world, j));
     for (const role of Object.keys(trails)) trails[role].set(at(joint(role)), 3 * i);
     for (const j of head.drawn) extend(range, at(j));
-    if (!head.shape) continue;
+    if (!head.shape || i < first) continue;
     for (const role of ["hip", "shoulder"]) {
       const side = subtract(at(roles[`left_${role}`]), at(roles[`right_${role}`]));
       faced = add(faced, unit(cross(side, [0, 1, 0])));
@@ -107,7 +111,7 @@ export function travelOf(source: PoseSource): Travel {
   }
   const facing = Math.hypot(faced[0], faced[2]) > 0.2 * count ? Math.atan2(faced[0], faced[2]) : 0;
   const footprints = [...prints.left.done(), ...prints.right.done()];
-  return { step, count, facing, footprints, trails, ...range };
+  return { step, count, first, facing, footprints, trails, ...range };
 }
 
 /** What stands in where a skeleton lacks a role. */

@@ -13,6 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ..kinematics.contacts import detect
+from ..kinematics.lead_in import still_before
 from ..motion import Motion
 from ..typing import Array
 from .figure import Figure
@@ -59,13 +60,15 @@ class Frames:
     ``offsets`` (J, 3) of all, ``contacts`` (T, 2) left and right foot, 1 while it stands. ``shape`` is None
     where no body is found: then sticks are drawn between the ``drawn`` joints and to the ``tips``, the end
     sites: the joint that each hangs on, and where from there. ``steps`` is what was done, ``notes`` what has
-    to be said about it, ``seconds`` what it took.
+    to be said about it, ``seconds`` what it took. ``still`` is how many
+    frames at the start are a pose before the action, such as a T-pose.
     """
 
     clip: str
     name: str
     frames: int
     frame_time: float
+    still: int
     joints: list[str]
     parents: list[int]
     moving: list[int]
@@ -139,6 +142,7 @@ def frames_of(motion: Motion, figure: Figure, clip: str, moving: Sequence[int], 
         name=motion.name,
         frames=len(motion),
         frame_time=motion.frame_time,
+        still=still_before(motion),
         joints=list(skeleton.names),
         parents=skeleton.parents.tolist(),
         moving=list(moving),
