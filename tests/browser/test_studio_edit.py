@@ -247,6 +247,49 @@ class TestDisc:
         assert walking.layers() == []
         assert "nothing yet" in disc.inner_text()
 
+    @pytest.mark.parametrize("size", [(1280, 720), (1360, 820), (1920, 1080)])
+    def test_written_words(self, walking: Studio, size: tuple[int, int]) -> None:
+        """They stand still while things are asked for, and a click on one asks for that one."""
+        walking.page.set_viewport_size(dict(zip(("width", "height"), size, strict=True)))
+        disc = walking.page.get_by_role("group", name="Emotion")
+        boxes = """() => Object.fromEntries([...document.querySelectorAll("[data-word]")].map((one) => {
+            const { x, y } = one.querySelector("rect").getBoundingClientRect();
+            return [one.dataset.word, [x, y]];
+        }))"""
+        walking.settle()
+        first = walking.page.evaluate(boxes)
+        assert len(first) >= len(words()) - 3
+        for name in ("happy", "neutral", "excited", "sad", "happy"):
+            walking.page.mouse.click(*middle(disc.locator(f"[data-word={name}] rect")))
+            walking.settle()
+            valence, arousal = (math.trunc(100 * x) / 100 for x in words()[name])
+            said = f"{valence:+.2f}, {arousal:+.2f}".replace("-", "−").replace("+0.00", "0")
+            assert walking.layers()[0].replace("+0.00", "0") == f"Disc {said}"
+            now = walking.page.evaluate(boxes)
+            assert now.keys() == first.keys()
+            assert all(math.dist(now[word], place) <= 7 for word, place in first.items())
+
+    def test_the_list_of_words(self, walking: Studio) -> None:
+        """One is chosen as long as it is what is asked for, and can be chosen again after that."""
+        walking.page.get_by_text("Words", exact=True).click()
+        bored, sad = (walking.page.get_by_role("radio", name=name, exact=True) for name in ("bored", "sad"))
+        for _ in range(2):
+            bored.check(force=True)
+            walking.settle()
+            assert walking.layers() == ["Disc −0.66, −0.63"]
+            assert (bored.is_checked(), sad.is_checked()) == (True, False)
+            assert bored.locator("..").get_attribute("class").count("chosen") == 1
+            walking.press("Control+z")
+            walking.settle()
+            assert walking.layers() == []
+            assert not bored.is_checked()
+        sad.check(force=True)
+        walking.settle()
+        walking.slider("Valence").focus()
+        walking.press("ArrowLeft")
+        walking.settle()
+        assert not sad.is_checked(), "the place is another one now"
+
     def test_where_no_reading_lies(self, walking: Studio) -> None:
         """Hatched is what is further out than all that the model tells apart; nothing is read there."""
         disc = walking.page.get_by_role("group", name="Emotion")

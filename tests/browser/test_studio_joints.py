@@ -84,6 +84,13 @@ def test_joints_that_were_found_can_be_corrected_and_be_found_again(walking: Stu
 
     dialog = walking.page.get_by_role("dialog")
     assert named() == "Neck"
+    tall = dialog.locator("fieldset.left label, fieldset.right label").evaluate_all(
+        "all => all.map(one => one.firstElementChild.getClientRects().length)"
+    )
+    assert tall == [1] * 16, "none is broken into lines"
+    arm = dialog.get_by_role("combobox", name=label("left_elbow"))
+    assert arm.locator("option:checked").evaluate("one => one.text") == "LeftForeArm", "not cut by its depth"
+    assert arm.get_by_role("option", name="RightForeArm").evaluate("one => one.label").startswith("\u00a0")
     choose(dialog, {"neck": ""})
     dialog.get_by_role("button", name="Apply").click()
     dialog.wait_for(state="hidden")

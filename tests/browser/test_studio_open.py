@@ -233,3 +233,23 @@ def test_pictures_of_moods(server: Server, visit: Visit) -> None:
     made = [Image.open(path) for path in (server.folder / "pictures").rglob("*.png")]
     assert size in [list(picture.size) for picture in made]
     assert all(len(picture.convert("RGB").getcolors(100_000)) > 50 for picture in made)
+
+
+def test_no_name_of_a_mood_is_broken(studio: Studio) -> None:
+    """Not even in tiles as narrow as they get, beside a scroll bar in a low window."""
+    studio.page.set_viewport_size({"width": 1280, "height": 720})
+    broken = """(width) => [...document.querySelectorAll("[role=toolbar] .name")].flatMap((name) => {
+      name.closest("[role=toolbar]").style.width = `${width}px`;
+      const text = name.firstChild;
+      return [...text.data.matchAll(/\\S+/g)].filter((word) => {
+        const range = document.createRange();
+        range.setStart(text, word.index);
+        range.setEnd(text, word.index + word[0].length);
+        const box = range.getBoundingClientRect();
+        const within = name.getBoundingClientRect();
+        return range.getClientRects().length > 1 || box.left < within.left || box.right > within.right;
+      }).map(String);
+    })"""
+    assert studio.page.locator("[role=toolbar] .name").count() > 12
+    for width in (158, 174, 200):
+        assert studio.page.evaluate(broken, width) == []

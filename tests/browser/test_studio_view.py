@@ -1,5 +1,6 @@
 """How original and edit are compared, what is drawn, playing, and that nothing is lost by a reload."""
 
+import itertools
 import re
 from collections.abc import Callable
 from difflib import unified_diff
@@ -9,11 +10,11 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from mien import load
+from mien import load, samples
 from mien.formats import bvh
 from mien.motion import Motion
 
-from .driving import Server, Studio, V, middle
+from .driving import Server, Studio, V, grown, middle
 
 LINES = ("Height of the timeline", "Height of the layers")
 Visit = Callable[..., Studio]
@@ -297,3 +298,21 @@ def test_a_small_window(visit: Visit, server: Server, clips: Path) -> None:
     wide = studio.page.evaluate("document.documentElement.scrollWidth")
     assert wide <= 900, "nothing stands outside"
     assert studio.button("Export").bounding_box()["x"] + 40 < 900
+
+
+def test_names_of_joints_do_not_cover_each_other(studio: Studio, tmp_path: Path) -> None:
+    """What people look for comes before twists and fingers, and all of it is read over the figure."""
+    file = tmp_path / "many.bvh"
+    file.write_bytes(bvh.render(grown(samples.walk(seconds=1.0, fps=30.0).motion, 60)))
+    studio.open(file)
+    studio.button("Names").click()
+    shown = """() => [...document.querySelectorAll("div")].filter((one) =>
+      one.style.textShadow && one.style.display !== "none").map((one) => {
+        const { left, right, top, bottom } = one.getBoundingClientRect();
+        return [one.textContent, left, right, top, bottom];
+      })"""
+    studio.until(f"({shown})().length > 8")
+    names = studio.page.evaluate(shown)
+    assert {"Head", "LeftHand", "RightLeg"} <= {name for name, *_ in names}
+    for (one, left, right, top, bottom), (two, l2, r2, t2, b2) in itertools.combinations(names, 2):
+        assert left >= r2 or l2 >= right or top >= b2 - 1 or t2 >= bottom - 1, (one, two)

@@ -312,11 +312,14 @@ class TestDisc:
     def test_touch(self, browser: Any, address: str) -> None:
         page, wrong = on_page(browser, address, has_touch=True)
         x, y = middle(page.locator(".rim"))
-        page.touchscreen.tap(x + 20, y)
+        page.touchscreen.tap(x - 20, y)
         name, valence, arousal, done = said(page)
+        page.touchscreen.tap(x + 20, y)  # where "neutral" is written
+        word = said(page)
         page.close()
         assert (name, arousal, done, wrong) == ("ask", 0, True, [])
-        assert 0.1 < valence < 0.2
+        assert -0.2 < valence < -0.1
+        assert word == ["ask", 0, 0, True]
 
 
 class TestSquare:

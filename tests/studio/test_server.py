@@ -4,10 +4,12 @@ import json
 import subprocess
 import sys
 from collections.abc import Callable
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from starlette.testclient import TestClient
 
 import mien
@@ -102,6 +104,24 @@ def test_pictures_can_be_had(client: TestClient, clip: str) -> None:
     assert client.get("/api/presets/s0/sad.png").content.startswith(b"\x89PNG")
     wrong = client.post("/api/export", json=message | {"options": {"width": 1e9}})
     assert (wrong.status_code, "width must be" in wrong.json()["error"]) == (422, True)
+
+
+def test_pictures_of_presets_have_a_clear_ground(client: TestClient, session: Session) -> None:
+    """Only the figure and its shadow are there, whole, and they are made once."""
+    kept = session.workspace.folder / "pictures"
+    for name in ("sad", "s0/sad"):
+        picture = Image.open(BytesIO(client.get(f"/api/presets/{name}.png").content))
+        assert picture.mode == "RGBA"
+        colour, cover = np.split(np.asarray(picture, float), [3], axis=2)
+        assert not cover[[0, -1]].any(), "nothing is cut off above and below"
+        assert not cover[:, [0, -1]].any(), "nor at the sides"
+        assert 0.1 < (cover == 255).mean() < 0.4
+        limbs = colour[cover[..., 0] == 255]
+        assert (limbs[:, 2] - limbs[:, 0] > 60).sum() > 200, "a blue side"
+        assert (limbs[:, 0] - limbs[:, 2] > 60).sum() > 200, "and an orange one"
+    files = {path: path.stat().st_mtime_ns for path in kept.iterdir()}
+    client.get("/api/presets/sad.png")
+    assert {path: path.stat().st_mtime_ns for path in kept.iterdir()} == files
 
 
 def test_reading_checks_and_curves(client: TestClient, clip: str) -> None:

@@ -12,7 +12,8 @@ interface Name {
 
 type Style = Partial<Record<"position" | "left" | "right" | "top" | "bottom" | "width" | "height" | "font" | "color"
   | "background" | "padding" | "borderRadius" | "pointerEvents" | "transform" | "whiteSpace" | "border" | "cursor"
-  | "inset" | "overflow" | "display" | "textAlign" | "touchAction" | "opacity", string>>;
+  | "inset" | "overflow" | "display" | "textAlign" | "touchAction" | "opacity"
+  | "textShadow", string>>;
 
 const FONT = "12px/1.4 system-ui, sans-serif";
 const BARS = [0.1, 0.25, 0.5, 1, 2, 5, 10]; // metres
@@ -24,6 +25,7 @@ export class Overlay {
   #handle: HTMLElement;
   #message: HTMLElement;
   #names: HTMLElement[] = [];
+  #halo = "";
   #colour = "";
 
   constructor(host: HTMLElement, onWipe: (share: number) => void) {
@@ -46,6 +48,8 @@ export class Overlay {
     this.#root.style.color = this.#colour;
     const paper = theme === "dark" ? "rgb(20 23 27 / 72%)" : "rgb(255 255 255 / 78%)";
     for (const element of [...this.#sides, this.#message]) element.style.background = paper;
+    this.#halo = halo(theme === "dark" ? "#14171b" : "#ffffff");
+    for (const element of this.#names) element.style.textShadow = this.#halo;
   }
 
   /** Name the left and the right of the picture; nothing where there is one figure. */
@@ -76,7 +80,7 @@ export class Overlay {
   /** Put names at places of the picture, those asked to be strong first; what would cover another is left out. */
   names(all: readonly Name[]): void {
     const names = apart([...all].sort((a, b) => Number(b.strong) - Number(a.strong)));
-    while (this.#names.length < names.length) this.#names.push(made(this.#root, NAME));
+    while (this.#names.length < names.length) this.#names.push(made(this.#root, { ...NAME, textShadow: this.#halo }));
     this.#names.forEach((element, i) => {
       show(element, i < names.length);
       if (i >= names.length) return;
@@ -84,7 +88,6 @@ export class Overlay {
       element.textContent = text;
       element.style.transform = `translate(${x + 9}px, ${y - 9}px)`;
       element.style.fontWeight = strong ? "600" : "400";
-      element.style.opacity = strong ? "1" : "0.75";
     });
   }
 
@@ -128,17 +131,24 @@ export class Overlay {
 }
 
 /** Leave out names that would cover one before them. */
-function apart(names: readonly Name[]): Name[] {
-  const kept: Name[] = [];
+export function apart<One extends Pick<Name, "text" | "x" | "y">>(names: readonly One[]): One[] {
+  const kept: One[] = [];
   for (const one of names) {
     const covers = kept.some(({ text, x, y }) =>
-      Math.abs(y - one.y) < 14 && one.x < x + LETTER * text.length && x < one.x + LETTER * one.text.length);
+      Math.abs(y - one.y) < LINE && one.x < x + LETTER * text.length && x < one.x + LETTER * one.text.length);
     if (!covers) kept.push(one);
   }
   return kept;
 }
 
-const LETTER = 7; // pixels, about
+/** Shadows all around, so that letters are read over the figure as over the floor. */
+function halo(colour: string): string {
+  const around = [[-1, -1], [0, -1.5], [1, -1], [1.5, 0], [1, 1], [0, 1.5], [-1, 1], [-1.5, 0]];
+  return [...around.map(([x, y]) => `${x}px ${y}px 1px ${colour}`), `0 0 4px ${colour}`].join(", ");
+}
+
+const LETTER = 7.2; // pixels, a little more than the mean
+const LINE = 17; // pixels, as high as a line of FONT
 const LABEL: Style = {
   position: "absolute", top: "10px", padding: "2px 8px", borderRadius: "4px", whiteSpace: "nowrap",
 };

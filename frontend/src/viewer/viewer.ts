@@ -522,16 +522,17 @@ export class Viewer {
   }
 
   /** Where the drawn joints of a part of the picture are, in pixels of the canvas. */
-  #projected({ lead, view: [from, to] }: Pane): { joint: number; name: string; x: number; y: number }[] {
+  #projected({ lead, view: [from, to] }: Pane): { joint: number; name: string; x: number; y: number; z: number }[] {
     const { clientWidth: width, clientHeight: height } = this.#host;
     const { head } = lead.source;
     const roles = new Set(Object.values(head.shape?.roles ?? {}));
-    const first = head.drawn.filter((joint) => roles.has(joint)); // what people look for, before twists and fingers
-    return [...first, ...head.drawn.filter((joint) => !roles.has(joint))].map((joint) => {
-      const { x, y } = lead.joint(joint).project(this.camera.camera);
+    const all = head.drawn.map((joint) => {
+      const { x, y, z } = lead.joint(joint).project(this.camera.camera);
       const across = from + ((x + 1) / 2) * (to - from);
-      return { joint, name: head.joints[joint], x: across * width, y: ((1 - y) / 2) * height };
+      return { joint, name: head.joints[joint], x: across * width, y: ((1 - y) / 2) * height, z };
     });
+    // What people look for before twists and fingers, and of those what is nearest to the camera.
+    return all.sort((a, b) => Number(roles.has(b.joint)) - Number(roles.has(a.joint)) || a.z - b.z);
   }
 
   #write(panes: readonly Pane[], width: number, height: number): void {
