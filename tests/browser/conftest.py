@@ -105,6 +105,8 @@ def visit(browser: Any) -> Iterator[Callable[..., Studio]]:
 
     yield go
     problems = [problem for studio in seen for problem in studio.problems()]
+    for studio in seen:
+        studio.rest()
     for context in contexts:
         context.close()
     assert problems == []

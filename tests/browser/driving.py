@@ -257,6 +257,13 @@ class Studio:
             assert time.monotonic() < end, f"it never settled: {self.page.locator('body').inner_text()}"
             self.page.wait_for_timeout(15)
 
+    def rest(self, *, seconds: float = 3.0) -> None:
+        """Wait until the work is kept: what a page sends as it goes would come into the next test."""
+        end = time.monotonic() + seconds
+        saving = "/saving…/.test(document.body.innerText)"
+        while not self.page.is_closed() and self.page.evaluate(saving) and time.monotonic() < end:
+            self.page.wait_for_timeout(20)
+
     def colours(self) -> int:
         return int(self.page.evaluate(f"{V}.colours()"))
 
