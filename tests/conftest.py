@@ -92,3 +92,20 @@ def with_t_pose() -> Callable[[Motion, int], Motion]:
         )
 
     return made
+
+
+@pytest.fixture(scope="session")
+def held_t_pose() -> Callable[[Motion, int], Motion]:
+    """Put before a clip so many frames of a T-pose that is held: rotations at rest."""
+
+    def made(motion: Motion, frames: int) -> Motion:
+        rest = np.zeros((frames, *motion.rotations.shape[1:]))
+        rest[..., 3] = 1.0
+        places = np.repeat(motion.translations[:1], frames, 0)
+        return motion.with_(
+            rotations=np.concatenate([rest, motion.rotations]),
+            translations=np.concatenate([places, motion.translations]),
+            source=None,
+        )
+
+    return made

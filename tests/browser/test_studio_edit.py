@@ -380,18 +380,7 @@ class TestSquare:
         x, y = middle(surface)
         width = surface.bounding_box()["width"]
         studio.page.evaluate(f"{V}.playback.set({{ time: 1.3 }})")
-        original, held, slow = places(studio), [], True
-        studio.page.route("**/api/edit", lambda route: held.append(route) if slow else route.continue_())
-        studio.page.mouse.move(x, y)
-        studio.page.mouse.down()
-        studio.page.mouse.move(x - 0.4 * width, y)
-        studio.until("window.__asked > 0")
-        blended, slow = places(studio), False
-        for route in held:
-            route.continue_()
-        studio.page.mouse.up()
-        studio.settle()
-        answered = places(studio)
+        original, blended, answered = drag_unanswered(studio, (x, y), x - 0.4 * width)
         assert np.abs(original - answered).max() > 0.01
         np.testing.assert_allclose(blended, answered, atol=0.001)
 
@@ -432,20 +421,28 @@ def seen(studio: Studio, slider: Any, to: float, *, within: float = 0.2) -> None
     studio.page.mouse.move(x, y)
     studio.until("window.__asked > 0")  # the pointer rests there, and the page gets ready
     studio.settle()
-    original, held, slow = places(studio), [], True
+    end = x + to * slider.bounding_box()["width"]
+    original, blended, answered = drag_unanswered(studio, (x, y), end)
+    changed = np.abs(original - answered).max()
+    assert changed > 0.02
+    assert np.abs(blended - answered).max() < within * changed
+
+
+def drag_unanswered(studio: Studio, start: tuple[float, float], x: float) -> tuple[np.ndarray, ...]:
+    """Drag sideways; returns where joints are seen before it, before any answer comes, and after it."""
+    held: list[Any] = []
+    original, slow = places(studio), True
     studio.page.route("**/api/edit", lambda route: held.append(route) if slow else route.continue_())
+    studio.page.mouse.move(*start)
     studio.page.mouse.down()
-    studio.page.mouse.move(x + to * slider.bounding_box()["width"], y)
+    studio.page.mouse.move(x, start[1])
     studio.until("window.__asked > 0")
     blended, slow = places(studio), False
     for route in held:
         route.continue_()
     studio.page.mouse.up()
     studio.settle()
-    answered = places(studio)
-    changed = np.abs(original - answered).max()
-    assert changed > 0.02
-    assert np.abs(blended - answered).max() < within * changed
+    return original, blended, places(studio)
 
 
 def places(studio: Studio) -> np.ndarray:

@@ -1,5 +1,6 @@
 """A T-pose before the action changes nothing of what is read in the action."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -19,16 +20,6 @@ WITH = ("cmu_daz/02_01.bvh", "cmu_60fps_badheader/16_12_60fps.bvh", "cmu_mb_misc
 WITHOUT = ("bandai1/dataset-1_walk_normal_001.bvh", "reactidle/000_genuine.bvh")
 
 
-def after_a_t_pose(motion: Motion, frames: int) -> Motion:
-    rest = np.zeros((frames, *motion.rotations.shape[1:]))
-    rest[..., 3] = 1.0
-    return motion.with_(
-        rotations=np.concatenate([rest, motion.rotations]),
-        translations=np.concatenate([np.repeat(motion.translations[:1], frames, 0), motion.translations]),
-        source=None,
-    )
-
-
 def apart(one: Reading, other: Reading) -> float:
     """Return how far two readings are from each other on the disc."""
     return float(np.hypot(one.place.valence - other.place.valence, one.place.arousal - other.place.arousal))
@@ -40,36 +31,40 @@ def alike(one: Reading, other: Reading) -> bool:
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("frames", [1, 30])
-def test_a_clip_reads_as_without_it(name: str, frames: int) -> None:
+def test_a_clip_reads_as_without_it(
+    held_t_pose: Callable[[Motion, int], Motion], name: str, frames: int
+) -> None:
     motion = samples.SAMPLES[name](fps=30.0).motion
-    posed = after_a_t_pose(motion, frames)
+    posed = held_t_pose(motion, frames)
     assert alike(mien.read(posed), mien.read(motion))
     np.testing.assert_allclose(mien.features(posed).clip, mien.features(motion).clip, rtol=0.02, atol=0.02)
 
 
 @pytest.mark.parametrize("frames", [1, 30])
 @pytest.mark.parametrize("word", ["sad", "excited"])
-def test_an_edited_clip_reads_as_without_it(word: str, frames: int) -> None:
+def test_an_edited_clip_reads_as_without_it(
+    held_t_pose: Callable[[Motion, int], Motion], word: str, frames: int
+) -> None:
     motion = samples.walk(fps=30.0).motion
-    posed = mien.edit(after_a_t_pose(motion, frames), word, safe=False)
+    posed = mien.edit(held_t_pose(motion, frames), word, safe=False)
     assert frames <= still_before(posed) <= frames + 2
     assert apart(mien.read(posed), mien.read(mien.edit(motion, word, safe=False))) < 0.05
 
 
 @pytest.mark.parametrize("frames", [1, 30])
-def test_its_course_begins_after_it(frames: int) -> None:
+def test_its_course_begins_after_it(held_t_pose: Callable[[Motion, int], Motion], frames: int) -> None:
     motion = samples.walk(seconds=5.0, fps=30.0).motion
     times, places = course(motion)
-    later, same = course(after_a_t_pose(motion, frames))
+    later, same = course(held_t_pose(motion, frames))
     np.testing.assert_allclose(later, times + frames / 30.0)
     np.testing.assert_allclose(same, places, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", CURVES)
-def test_curves_have_no_spike(name: str) -> None:
+def test_curves_have_no_spike(held_t_pose: Callable[[Motion, int], Motion], name: str) -> None:
     motion = samples.walk(fps=30.0).motion
     _, plain = curve(motion, name)
-    _, posed = curve(after_a_t_pose(motion, 30), name)
+    _, posed = curve(held_t_pose(motion, 30), name)
     assert len(posed) == len(plain) + 30
     assert posed.max() <= 1.02 * plain.max()
     np.testing.assert_allclose(posed[45:], plain[15:], rtol=1e-3, atol=1e-3)
@@ -102,9 +97,11 @@ def test_real_clips_that_begin_with_one(data: Path, name: str) -> None:
 
 @pytest.mark.parametrize("name", WITHOUT)
 @pytest.mark.parametrize("frames", [1, 30])
-def test_real_clips_after_one(data: Path, name: str, frames: int) -> None:
+def test_real_clips_after_one(
+    held_t_pose: Callable[[Motion, int], Motion], data: Path, name: str, frames: int
+) -> None:
     motion = mien.load(data / name)[:900]
     assert lead_in(motion) == 0
-    posed = after_a_t_pose(motion, frames)
+    posed = held_t_pose(motion, frames)
     assert lead_in(posed) == frames
     assert alike(mien.read(posed), mien.read(motion))

@@ -16,25 +16,14 @@ def test_a_t_pose_before_a_walk_is_found(with_t_pose, frames, fps):
     assert lead_in(with_t_pose(samples.walk(fps=fps).motion, frames)) == frames
 
 
-def held_t_pose(motion, frames):
-    """The clip after a T-pose that is held for ``frames``: rotations at rest."""
-    rest = np.zeros((frames, *motion.rotations.shape[1:]))
-    rest[..., 3] = 1.0
-    return motion.with_(
-        rotations=np.concatenate([rest, motion.rotations]),
-        translations=np.concatenate([np.repeat(motion.translations[:1], frames, 0), motion.translations]),
-        source=None,
-    )
-
-
 @pytest.mark.parametrize("name", [name for name in samples.SAMPLES if name != "still"])
 @pytest.mark.parametrize("fps", [24.0, 60.0])
 @pytest.mark.parametrize("frames", [1, 2, 30])
-def test_a_t_pose_that_is_held_is_found(name, fps, frames):
+def test_a_t_pose_that_is_held_is_found(held_t_pose, name, fps, frames):
     assert lead_in(held_t_pose(samples.SAMPLES[name](fps=fps).motion, frames)) == frames
 
 
-def test_a_t_pose_that_is_left_by_moving_is_movement():
+def test_a_t_pose_that_is_left_by_moving_is_movement(held_t_pose):
     motion = samples.walk(fps=60.0).motion
     posed = held_t_pose(motion, 30)
     smooth = np.array(posed.rotations)
@@ -47,7 +36,7 @@ def test_a_t_pose_that_is_left_by_moving_is_movement():
     assert lead_in(between) == 0
 
 
-def test_a_pose_that_is_held_for_ever_is_no_still_before_anything():
+def test_a_pose_that_is_held_for_ever_is_no_still_before_anything(held_t_pose):
     still = held_t_pose(samples.walk(fps=30.0).motion, 200)
     assert lead_in(still[:150]) == 0
     assert lead_in(still) == 0, "it is the clip's own, for longer than anybody waits"

@@ -210,6 +210,10 @@ class _Reader:
         return " ".join(words[count + 1 :])
 
     def finish(self, *, salvage: bool) -> bool:
+        """Say whether every block was closed.
+
+        Raises ``FormatError`` where there are no joints or, without ``salvage``, blocks that were left open.
+        """
         if not self.started or not self.joints:
             raise self.fault("not a BVH file: no HIERARCHY with a ROOT before MOTION")
         left = [*self.open, *([self.waiting] if self.waiting else [])]
